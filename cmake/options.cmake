@@ -1,0 +1,51 @@
+option(MILEPOST_TESTS "Build the tests" ON)
+option(MILEPOST_BENCHMARKS "Build the benchmarks in tests/bench" ON)
+option(MILEPOST_WERROR "Treat warnings as errors" OFF)
+set(MILEPOST_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined or thread")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+# What every target of the project is compiled with, and nothing that is installed.
+add_library(milepost_compile_options INTERFACE)
+target_compile_options(milepost_compile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Wno-restrict  # false alarms of GCC 12 on std::string (GCC bug 105651)
+  $<$<BOOL:${MILEPOST_WERROR}>:-Werror>)
+if(MILEPOST_SANITIZE)
+  target_compile_options(milepost_compile_options INTERFACE
+    -fsanitize=${MILEPOST_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(milepost_compile_options INTERFACE -fsanitize=${MILEPOST_SANITIZE})
+endif()
+
+# milepost_library(NAME SOURCES ... PUBLIC ... PRIVATE ...): a library with the alias milepost::NAME.
+# Headers are included from the root of the project: #include "schema/base/result.h".
+function(milepost_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(milepost_${name} STATIC ${ARG_SOURCES})
+  add_library(milepost::${name} ALIAS milepost_${name})
+  set_target_properties(milepost_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(milepost_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+    $<INSTALL_INTERFACE:include/milepost>)
+  target_compile_features(milepost_${name} PUBLIC cxx_std_20)
+  target_link_libraries(milepost_${name}
+    PUBLIC ${ARG_PUBLIC}
+    PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:milepost_compile_options>)
+endfunction()
+
+# milepost_program(NAME SOURCES ... LINK ...): an installed command.
+function(milepost_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} milepost_compile_options)
+  install(TARGETS ${name} RUNTIME)
+endfunction()
