@@ -1,0 +1,37 @@
+// Tables of comma separated values without quoting, as drives and fixes use them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/base/result.h"
+
+namespace milepost {
+
+// A table held in memory. Rows are counted as an editor counts lines: the header is line 1.
+class CsvTable {
+ public:
+  // Reads a file whose header starts with `columns`, in that order; further columns are ignored.
+  // Errors: not_found, io; invalid_input for another header or a row with too few cells.
+  static Result<CsvTable> read(const std::filesystem::path& path,
+                               const std::vector<std::string>& columns);
+
+  std::size_t row_count() const { return rows_.size(); }
+  const std::string& text(std::size_t row, std::size_t column) const { return rows_[row][column]; }
+  // A finite number. Errors: invalid_input that names file, line and column.
+  Result<double> number(std::size_t row, std::size_t column) const;
+
+  std::size_t line(std::size_t row) const { return lines_[row]; }
+  // "FILE, line N", for messages about a row.
+  std::string place(std::size_t row) const;
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+  std::vector<std::size_t> lines_;
+};
+
+}  // namespace milepost

@@ -1,0 +1,55 @@
+// What every milepost command does alike: words on the command line, exit codes, errors in one
+// line, progress on a terminal, a clean stop on Ctrl-C.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "schema/base/result.h"
+
+namespace milepost {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitFailed = 1;     // one line on standard error says why
+inline constexpr int kExitWrongCall = 2;  // so does it here
+
+// A subcommand: `milepost-mapper build`. run() gets the words that follow its name.
+struct Command {
+  std::string name;
+  std::string summary;
+  std::function<int(const std::string& program, std::vector<std::string> words)> run;
+};
+
+// Chooses the subcommand by the first word and runs it; answers --help and --version itself.
+int run_program(const std::string& program, const std::string& description,
+                const std::vector<Command>& commands, int argc, char** argv);
+
+// Parses `words` by `app`; the option --config (a file with one option a line, as key = value) is
+// added, in which an unknown key is an error. Returns the exit code if the command is to end here.
+std::optional<int> parse_words(CLI::App& app, std::vector<std::string> words);
+
+// Prints "PROGRAM: LINE" on standard error and returns kExitFailed.
+int fail(const std::string& program, const Error& error);
+
+// From now on SIGINT and SIGTERM set a flag instead of ending the program; a second one ends it.
+void catch_stop_signals();
+bool stop_requested();
+
+// A line that is rewritten in place on a terminal, and nothing at all elsewhere.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine();  // clears the line
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void show(const std::string& text);
+
+ private:
+  bool on_terminal_;
+};
+
+}  // namespace milepost

@@ -1,0 +1,186 @@
+#include "schema/drive/checks.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+#include <unordered_map>
+
+namespace milepost {
+namespace {
+
+constexpr int kMaxImageSidePx = 20000;
+
+Error invalid(std::string where, std::string what, std::string mend) {
+  return {ErrorCode::invalid_input, std::move(where), std::move(what), std::move(mend)};
+}
+
+// The shortest text that reads back as the same number.
+std::string text_of(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+std::string rounded(double value, int decimals) {
+  char buffer[400];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr;
+  return {buffer, end};
+}
+
+Status check_side(int side_px, const char* key, const std::string& where) {
+  if (side_px >= 1 && side_px <= kMaxImageSidePx) return ok_status();
+  return invalid(where, std::string("camera.") + key + " is " + std::to_string(side_px),
+                 "give the images' size, 1 to " + std::to_string(kMaxImageSidePx) + " pixels");
+}
+
+Status check_time(double timestamp_s, const double* previous_s, const RowPlaces& rows,
+                  std::size_t row) {
+  if (!std::isfinite(timestamp_s)) {
+    return invalid(rows.place(row), "timestamp_s is not a finite number",
+                   "correct or remove the row");
+  }
+  if (previous_s == nullptr || timestamp_s > *previous_s) return ok_status();
+  return invalid(rows.place(row),
+                 "timestamp_s " + text_of(timestamp_s) + " is not later than " +
+                     text_of(*previous_s) + " on line " + std::to_string(rows.lines[row - 1]),
+                 "put the rows in the order of time, one a moment");
+}
+
+// The first row of `readings` whose time is wrong, or ok.
+template <class Reading>
+Status check_times(const std::vector<Reading>& readings, const RowPlaces& rows) {
+  for (std::size_t row = 0; row < readings.size(); ++row) {
+    const double* previous_s = row == 0 ? nullptr : &readings[row - 1].timestamp_s;
+    Status status = check_time(readings[row].timestamp_s, previous_s, rows, row);
+    if (!status) return status;
+  }
+  return ok_status();
+}
+
+// A plain name of a file inside a folder, in a table without quoting.
+bool is_plain_filename(std::string_view name) {
+  return !name.empty() && name != "." && name != ".." &&
+         name.find_first_of(std::string_view("/\\,\r\n\0", 6)) == std::string_view::npos;
+}
+
+Status check_filenames(const std::vector<Frame>& frames, const RowPlaces& rows) {
+  std::unordered_map<std::string_view, std::size_t> row_of;
+  for (std::size_t row = 0; row < frames.size(); ++row) {
+    const std::string& name = frames[row].filename;
+    if (!is_plain_filename(name)) {
+      return invalid(rows.place(row), "filename '" + name + "' is not the plain name of a file",
+                     "name an image inside the images folder, without any path");
+    }
+    const auto [first, is_new] = row_of.emplace(name, row);
+    if (!is_new) {
+      return invalid(rows.place(row),
+                     "filename '" + name + "' stands already on line " +
+                         std::to_string(rows.lines[first->second]),
+                     "give each frame an image of its own");
+    }
+  }
+  return ok_status();
+}
+
+Status check_position(const GeoPoint& position, const std::string& place) {
+  if (!(std::abs(position.latitude_deg) <= 90)) {
+    return invalid(place, "latitude_deg " + text_of(position.latitude_deg) + " is out of range",
+                   "give a latitude from -90 to 90 degrees");
+  }
+  if (!(std::abs(position.longitude_deg) <= 180)) {
+    return invalid(place, "longitude_deg " + text_of(position.longitude_deg) + " is out of range",
+                   "give a longitude from -180 to 180 degrees");
+  }
+  if (!std::isfinite(position.altitude_m)) {
+    return invalid(place, "the altitude is not a finite number", "correct or remove the row");
+  }
+  return ok_status();
+}
+
+// REQUIRES: both rows' times and positions are checked.
+Status check_jump(const std::vector<Frame>& frames, const RowPlaces& rows, std::size_t row) {
+  const Frame& from = frames[row - 1];
+  const Frame& to = frames[row];
+  const double distance_m = std::hypot(geodesic_distance_m(from.position, to.position),
+                                       to.position.altitude_m - from.position.altitude_m);
+  const double elapsed_s = to.timestamp_s - from.timestamp_s;
+  const double speed_mps = distance_m / elapsed_s;
+  if (speed_mps <= kMaxSpeedMps) return ok_status();
+  return invalid(rows.place(row),
+                 "the position jumps " + rounded(distance_m, 1) + " m from line " +
+                     std::to_string(rows.lines[row - 1]) + " in " + rounded(elapsed_s, 3) + " s: " +
+                     rounded(speed_mps, 1) + " m/s, faster than " + rounded(kMaxSpeedMps, 0),
+                 "correct the positions or the times, or cut the drive in two there");
+}
+
+}  // namespace
+
+Status check_camera(const Camera& camera, const std::string& where) {
+  if (Status status = check_side(camera.width_px, "width_px", where); !status) return status;
+  if (Status status = check_side(camera.height_px, "height_px", where); !status) return status;
+  for (const double focal_px : {camera.focal_x_px, camera.focal_y_px}) {
+    if (!(std::isfinite(focal_px) && focal_px > 0)) {
+      return invalid(where, "camera.focal_px holds " + text_of(focal_px),
+                     "give two focal lengths above 0, in pixels");
+    }
+  }
+  if (!std::isfinite(camera.principal_x_px) || !std::isfinite(camera.principal_y_px)) {
+    return invalid(where, "camera.principal_px is not finite",
+                   "give the image's centre, in pixels");
+  }
+  return ok_status();
+}
+
+Status check_images_folder(const std::string& images, const std::string& where) {
+  const std::filesystem::path path(images);
+  bool inside = !path.empty() && path.is_relative();
+  for (const auto& part : path) inside = inside && part != "..";
+  if (inside) return ok_status();
+  return invalid(where, "images is '" + images + "', not a folder inside the drive",
+                 "name the folder of the frames relative to the drive, for example frames");
+}
+
+Status check_frames(const std::vector<Frame>& frames, const RowPlaces& rows) {
+  if (frames.empty()) {
+    return invalid(rows.file, "there is no frame", "give the table one row for each image");
+  }
+  if (Status status = check_filenames(frames, rows); !status) return status;
+  if (Status status = check_times(frames, rows); !status) return status;
+  for (std::size_t row = 0; row < frames.size(); ++row) {
+    if (!std::isfinite(frames[row].heading_deg)) {
+      return invalid(rows.place(row), "heading_deg is not a finite number",
+                     "correct or remove the row");
+    }
+    Status status = check_position(frames[row].position, rows.place(row));
+    if (status && row > 0) status = check_jump(frames, rows, row);
+    if (!status) return status;
+  }
+  return ok_status();
+}
+
+Status check_gps(const std::vector<GpsFix>& gps, const RowPlaces& rows) {
+  if (Status status = check_times(gps, rows); !status) return status;
+  for (std::size_t row = 0; row < gps.size(); ++row) {
+    Status status = check_position(gps[row].position, rows.place(row));
+    if (!status) return status;
+    if (!(std::isfinite(gps[row].sigma_m) && gps[row].sigma_m > 0)) {
+      return invalid(rows.place(row), "sigma_m is " + text_of(gps[row].sigma_m),
+                     "give a standard deviation above 0, in metres");
+    }
+  }
+  return ok_status();
+}
+
+Status check_odometry(const std::vector<OdometryReading>& odometry, const RowPlaces& rows) {
+  if (Status status = check_times(odometry, rows); !status) return status;
+  for (std::size_t row = 0; row < odometry.size(); ++row) {
+    if (!std::isfinite(odometry[row].speed_mps) || !std::isfinite(odometry[row].yaw_rate_dps)) {
+      return invalid(rows.place(row), "speed_mps or yaw_rate_dps is not a finite number",
+                     "correct or remove the row");
+    }
+  }
+  return ok_status();
+}
+
+}  // namespace milepost

@@ -1,0 +1,198 @@
+#include "schema/drive/description.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "schema/base/file.h"
+#include "schema/drive/checks.h"
+
+namespace milepost {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
+
+// The message of a JSON error without the library's own error number.
+std::string message_of(const Json::exception& error) {
+  const std::string text = error.what();
+  const std::size_t end = text.find("] ");
+  return end == std::string::npos ? text : text.substr(end + 2);
+}
+
+// Takes values out of drive.json by key and keeps the first error; later reads give defaults.
+class KeyReader {
+ public:
+  explicit KeyReader(std::string file) : file_(std::move(file)) {}
+
+  const Json& object(const Json& parent, const std::string& key) {
+    return member(parent, key, "an object", &Json::is_object);
+  }
+
+  std::string text(const Json& parent, const std::string& key) {
+    const Json& value = member(parent, key, "a string", &Json::is_string);
+    return value.is_string() ? value.get<std::string>() : "";
+  }
+
+  std::string optional_text(const Json& parent, const std::string& key) {
+    return parent.is_object() && parent.contains(key) ? text(parent, key) : "";
+  }
+
+  double number(const Json& parent, const std::string& prefix, const std::string& key) {
+    const Json& value = member(parent, key, "a number", &Json::is_number, prefix);
+    return value.is_number() ? value.get<double>() : 0;
+  }
+
+  int side_px(const Json& parent, const std::string& key) {
+    const Json& value = member(parent, key, "a whole number", &Json::is_number_integer, "camera.");
+    if (!value.is_number_integer()) return 0;
+    using Limits = std::numeric_limits<int>;
+    const auto side = value.get<std::int64_t>();
+    return static_cast<int>(std::clamp<std::int64_t>(side, Limits::min(), Limits::max()));
+  }
+
+  std::pair<double, double> number_pair(const Json& parent, const std::string& key) {
+    const Json& value = member(parent, key, "two numbers", &Json::is_array, "camera.");
+    if (!value.is_array()) return {};
+    if (value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
+      fail("camera." + key, "is not two numbers");
+      return {};
+    }
+    return {value[0].get<double>(), value[1].get<double>()};
+  }
+
+  void fail(const std::string& key, const std::string& what) {
+    if (status_) {
+      status_ = Error{ErrorCode::invalid_input, file_, key + " " + what,
+                      "correct it as the drive format describes"};
+    }
+  }
+
+  const Status& status() const { return status_; }
+
+ private:
+  using TypeTest = bool (Json::*)() const noexcept;
+
+  const Json& member(const Json& parent, const std::string& key, const std::string& type,
+                     TypeTest is_type, const std::string& prefix = "") {
+    static const Json nothing;
+    if (!parent.is_object()) return nothing;  // was reported where it was read
+    const auto found = parent.find(key);
+    if (found == parent.end()) {
+      fail(prefix + key, "is missing");
+      return nothing;
+    }
+    if (!((*found).*is_type)()) {
+      fail(prefix + key, "is not " + type);
+      return nothing;
+    }
+    return *found;
+  }
+
+  std::string file_;
+  Status status_;
+};
+
+Camera read_camera(KeyReader& keys, const Json& root) {
+  const Json& object = keys.object(root, "camera");
+  Camera camera;
+  camera.width_px = keys.side_px(object, "width_px");
+  camera.height_px = keys.side_px(object, "height_px");
+  std::tie(camera.focal_x_px, camera.focal_y_px) = keys.number_pair(object, "focal_px");
+  std::tie(camera.principal_x_px, camera.principal_y_px) = keys.number_pair(object, "principal_px");
+  return camera;
+}
+
+PositionFrame read_frame(KeyReader& keys, const Json& root) {
+  const std::string frame = keys.text(root, "frame");
+  if (frame != "local" && frame != "geographic") {
+    keys.fail("frame", "is '" + frame + "', neither 'local' nor 'geographic'");
+  }
+  return frame == "local" ? PositionFrame::local : PositionFrame::geographic;
+}
+
+GeoPoint read_origin(KeyReader& keys, const Json& root) {
+  const Json& object = keys.object(root, "origin");
+  const GeoPoint origin{keys.number(object, "origin.", "latitude_deg"),
+                        keys.number(object, "origin.", "longitude_deg"),
+                        keys.number(object, "origin.", "altitude_m")};
+  if (!is_valid(origin)) {
+    keys.fail("origin", "is not a position: latitude -90 to 90, longitude -180 to 180 degrees");
+  }
+  return origin;
+}
+
+Result<Json> parse(const fs::path& file) {
+  const Result<std::string> text = read_text_file(file);
+  if (!text) return text.error();
+  try {
+    Json root = Json::parse(*text);
+    if (root.is_object()) return root;
+    return Error{ErrorCode::invalid_input, file.string(), "is not a JSON object",
+                 "write it as the drive format describes"};
+  } catch (const Json::exception& error) {
+    return Error{ErrorCode::invalid_input, file.string(), message_of(error), "correct the JSON"};
+  }
+}
+
+}  // namespace
+
+Result<Drive> read_description(const fs::path& folder) {
+  const fs::path file = folder / kDescriptionFile;
+  const Result<Json> parsed = parse(file);
+  if (!parsed) return parsed.error();
+  const Json& root = *parsed;
+
+  KeyReader keys(file.string());
+  Drive drive;
+  drive.folder = folder;
+  drive.name = keys.text(root, "name");
+  drive.camera = read_camera(keys, root);
+  drive.position_frame = read_frame(keys, root);
+  if (drive.position_frame == PositionFrame::local) drive.origin = read_origin(keys, root);
+  drive.images = keys.text(root, "images");
+  drive.captured = keys.optional_text(root, "captured");
+  drive.licence = keys.optional_text(root, "licence");
+  drive.source = keys.optional_text(root, "source");
+  if (!keys.status()) return keys.status().error();
+
+  if (Status status = check_camera(drive.camera, file.string()); !status) return status.error();
+  Status status = check_images_folder(drive.images, file.string());
+  if (!status) return status.error();
+  return drive;
+}
+
+Result<std::string> description_text(const Drive& drive) {
+  const Camera& camera = drive.camera;
+  OrderedJson root;
+  root["name"] = drive.name;
+  root["camera"] = {{"width_px", camera.width_px},
+                    {"height_px", camera.height_px},
+                    {"focal_px", {camera.focal_x_px, camera.focal_y_px}},
+                    {"principal_px", {camera.principal_x_px, camera.principal_y_px}}};
+  if (drive.position_frame == PositionFrame::local) {
+    root["frame"] = "local";
+    root["origin"] = {{"latitude_deg", drive.origin->latitude_deg},
+                      {"longitude_deg", drive.origin->longitude_deg},
+                      {"altitude_m", drive.origin->altitude_m}};
+  } else {
+    root["frame"] = "geographic";
+  }
+  root["images"] = drive.images;
+  if (!drive.captured.empty()) root["captured"] = drive.captured;
+  if (!drive.licence.empty()) root["licence"] = drive.licence;
+  if (!drive.source.empty()) root["source"] = drive.source;
+  try {
+    return root.dump(2) + "\n";
+  } catch (const Json::exception& error) {
+    return Error{ErrorCode::invalid_input, kDescriptionFile, message_of(error),
+                 "write the drive's texts in UTF-8"};
+  }
+}
+
+}  // namespace milepost

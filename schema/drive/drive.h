@@ -1,0 +1,78 @@
+// A drive: one recorded run of a camera vehicle (the folder is described in design and FORMAT.md).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/geo/geodesy.h"
+
+namespace milepost {
+
+struct Camera {
+  int width_px = 0;
+  int height_px = 0;
+  double focal_x_px = 0;
+  double focal_y_px = 0;
+  double principal_x_px = 0;  // from the centre of the top left pixel
+  double principal_y_px = 0;
+
+  friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+struct Frame {
+  std::string filename;  // inside the drive's image folder
+  double timestamp_s = 0;
+  GeoPoint position;       // of the camera
+  double heading_deg = 0;  // of the camera, clockwise from north, [0, 360) when read
+  std::size_t line = 0;    // of trajectory.csv, for messages; 0 when the frame was not read
+};
+
+struct GpsFix {
+  double timestamp_s = 0;
+  GeoPoint position;  // altitude 0
+  double sigma_m = 0;
+};
+
+struct OdometryReading {
+  double timestamp_s = 0;
+  double speed_mps = 0;
+  double yaw_rate_dps = 0;  // clockwise
+};
+
+enum class PositionFrame { local, geographic };
+
+struct Drive {
+  std::filesystem::path folder;
+  std::string name;
+  Camera camera;
+  PositionFrame position_frame = PositionFrame::geographic;
+  std::optional<GeoPoint> origin;  // of a local frame
+  std::string images;              // folder of the frames inside `folder`
+  std::string captured;
+  std::string licence;
+  std::string source;
+  std::vector<Frame> frames;              // timestamps ascend strictly
+  std::vector<GpsFix> gps;                // empty without gps.csv; timestamps ascend strictly
+  std::vector<OdometryReading> odometry;  // empty without odometry.csv; the same
+
+  std::filesystem::path frame_path(const Frame& frame) const {
+    return folder / images / frame.filename;
+  }
+};
+
+// Faster than this between two rows, a position is taken for a jump of the recorder.
+inline constexpr double kMaxSpeedMps = 70.0;
+
+// Reads and checks a drive folder; the frames' images must exist but are not opened.
+// Errors (each names file, line and mend): a missing file, another header, a number that is not
+// finite or out of range, time that does not increase, a position jump, no frame at all.
+Result<Drive> read_drive(const std::filesystem::path& folder);
+
+// Writes drive.json, trajectory.csv and, where there are readings, gps.csv and odometry.csv into
+// `folder`, which is made if need be; frames are the caller's. Errors: io, invalid_input.
+Status write_drive(const Drive& drive, const std::filesystem::path& folder);
+
+}  // namespace milepost

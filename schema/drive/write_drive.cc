@@ -1,0 +1,159 @@
+#include <charconv>
+#include <numeric>
+#include <system_error>
+
+#include "schema/base/file.h"
+#include "schema/drive/checks.h"
+#include "schema/drive/description.h"
+#include "schema/drive/drive.h"
+#include "schema/drive/tables.h"
+
+namespace milepost {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMetreDecimals = 6;
+constexpr int kGeoDecimals = 11;  // of a degree: about a micrometre
+constexpr int kAngleDecimals = 6;
+constexpr int kRateDecimals = 6;
+
+// A table of comma separated values in the making.
+class CsvText {
+ public:
+  explicit CsvText(const std::vector<std::string>& columns) {
+    for (const std::string& column : columns) cell(column);
+    end_row();
+  }
+
+  void cell(const std::string& text) {
+    if (!row_.empty()) row_ += ',';
+    row_ += text;
+  }
+  // The shortest text that reads back as the same number: times keep their order.
+  void exact(double value) {
+    char buffer[32];
+    cell({buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr});
+  }
+  void fixed(double value, int decimals) {
+    char buffer[400];
+    const auto format = std::chars_format::fixed;
+    cell({buffer, std::to_chars(buffer, buffer + sizeof buffer, value, format, decimals).ptr});
+  }
+  void end_row() {
+    text_ += row_ + '\n';
+    row_.clear();
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string row_;
+  std::string text_;
+};
+
+std::string trajectory_text(const Drive& drive) {
+  const bool is_local = drive.position_frame == PositionFrame::local;
+  std::optional<LocalFrame> local;
+  if (is_local) local.emplace(*drive.origin);
+  CsvText csv(is_local ? kLocalColumns : kGeographicColumns);
+  for (const Frame& frame : drive.frames) {
+    csv.cell(frame.filename);
+    csv.exact(frame.timestamp_s);
+    if (local) {
+      const EnuPoint enu = local->enu_from_geo(frame.position);
+      csv.fixed(enu.east_m, kMetreDecimals);
+      csv.fixed(enu.north_m, kMetreDecimals);
+      csv.fixed(enu.up_m, kMetreDecimals);
+    } else {
+      csv.fixed(frame.position.latitude_deg, kGeoDecimals);
+      csv.fixed(frame.position.longitude_deg, kGeoDecimals);
+      csv.fixed(frame.position.altitude_m, kMetreDecimals);
+    }
+    csv.fixed(frame.heading_deg, kAngleDecimals);
+    csv.end_row();
+  }
+  return csv.text();
+}
+
+std::string gps_text(const Drive& drive) {
+  CsvText csv(kGpsColumns);
+  for (const GpsFix& fix : drive.gps) {
+    csv.exact(fix.timestamp_s);
+    csv.fixed(fix.position.latitude_deg, kGeoDecimals);
+    csv.fixed(fix.position.longitude_deg, kGeoDecimals);
+    csv.exact(fix.sigma_m);
+    csv.end_row();
+  }
+  return csv.text();
+}
+
+std::string odometry_text(const Drive& drive) {
+  CsvText csv(kOdometryColumns);
+  for (const OdometryReading& reading : drive.odometry) {
+    csv.exact(reading.timestamp_s);
+    csv.fixed(reading.speed_mps, kRateDecimals);
+    csv.fixed(reading.yaw_rate_dps, kRateDecimals);
+    csv.end_row();
+  }
+  return csv.text();
+}
+
+// The lines that `count` rows will stand on, below the header.
+RowPlaces rows_to_write(const fs::path& file, std::size_t count) {
+  RowPlaces rows{file.string(), std::vector<std::size_t>(count)};
+  std::iota(rows.lines.begin(), rows.lines.end(), std::size_t{2});
+  return rows;
+}
+
+// What read_drive would refuse is not written.
+Status check_drive(const Drive& drive, const fs::path& folder) {
+  const std::string description = (folder / kDescriptionFile).string();
+  if (drive.position_frame == PositionFrame::local && !(drive.origin && is_valid(*drive.origin))) {
+    return Error{ErrorCode::invalid_input, description, "a local drive has no valid origin",
+                 "set the drive's origin"};
+  }
+  Status status = check_camera(drive.camera, description);
+  if (status) status = check_images_folder(drive.images, description);
+  if (status) {
+    const RowPlaces rows = rows_to_write(folder / kTrajectoryFile, drive.frames.size());
+    status = check_frames(drive.frames, rows);
+  }
+  if (status) status = check_gps(drive.gps, rows_to_write(folder / kGpsFile, drive.gps.size()));
+  if (status) {
+    const RowPlaces rows = rows_to_write(folder / kOdometryFile, drive.odometry.size());
+    status = check_odometry(drive.odometry, rows);
+  }
+  return status;
+}
+
+// Writes an optional table, or removes the one an earlier drive left in the folder.
+Status write_optional(const fs::path& file, bool is_present, const std::string& text) {
+  if (is_present) return write_text_file(file, text);
+  std::error_code error;
+  fs::remove(file, error);
+  if (!error) return ok_status();
+  return Error{ErrorCode::io, file.string(), "cannot be removed (" + error.message() + ")",
+               "remove the old table"};
+}
+
+}  // namespace
+
+Status write_drive(const Drive& drive, const fs::path& folder) {
+  if (Status status = check_drive(drive, folder); !status) return status;
+  const Result<std::string> description = description_text(drive);
+  if (!description) return description.error();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    return Error{ErrorCode::io, folder.string(), "cannot be made (" + error.message() + ")",
+                 "check the path and the permissions"};
+  }
+  Status status = write_text_file(folder / kDescriptionFile, *description);
+  if (status) status = write_text_file(folder / kTrajectoryFile, trajectory_text(drive));
+  if (status) status = write_optional(folder / kGpsFile, !drive.gps.empty(), gps_text(drive));
+  if (status) {
+    status = write_optional(folder / kOdometryFile, !drive.odometry.empty(), odometry_text(drive));
+  }
+  return status;
+}
+
+}  // namespace milepost

@@ -1,0 +1,60 @@
+#include "schema/feature/types.h"
+
+#include <nlohmann/json.hpp>
+
+namespace milepost {
+namespace {
+
+Error corrupt_parameters(const std::string& what) {
+  return {ErrorCode::corrupt, "feature parameters", what, "build the map anew"};
+}
+
+// Takes a number within [low, high] out of `object`.
+template <class Number>
+Status take(nlohmann::json& object, const char* key, double low, double high, Number& value) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) {
+    return corrupt_parameters(std::string("'") + key + "' is missing or no number");
+  }
+  const double number = found->template get<double>();
+  if (!(number >= low && number <= high)) {
+    return corrupt_parameters(std::string("'") + key + "' is out of range");
+  }
+  value = static_cast<Number>(number);
+  object.erase(found);
+  return ok_status();
+}
+
+}  // namespace
+
+std::string to_json(const FeatureParameters& parameters) {
+  const nlohmann::ordered_json object = {{"kind", "sift"},
+                                         {"max_features", parameters.max_features},
+                                         {"octave_layers", parameters.octave_layers},
+                                         {"contrast_threshold", parameters.contrast_threshold},
+                                         {"edge_threshold", parameters.edge_threshold},
+                                         {"sigma", parameters.sigma}};
+  return object.dump();
+}
+
+Result<FeatureParameters> feature_parameters_from_json(const std::string& text) {
+  nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
+  if (!object.is_object()) return corrupt_parameters("they are not a JSON object");
+  if (!object.contains("kind") || object["kind"] != "sift") {
+    return corrupt_parameters("their kind is not 'sift'");
+  }
+  object.erase("kind");
+  FeatureParameters parameters;
+  for (const Status& status :
+       {take(object, "max_features", 0, 1e6, parameters.max_features),
+        take(object, "octave_layers", 1, 16, parameters.octave_layers),
+        take(object, "contrast_threshold", 0, 1, parameters.contrast_threshold),
+        take(object, "edge_threshold", 0, 1e6, parameters.edge_threshold),
+        take(object, "sigma", 0.1, 16, parameters.sigma)}) {
+    if (!status.ok()) return status.error();
+  }
+  if (!object.empty()) return corrupt_parameters("'" + object.begin().key() + "' is unknown");
+  return parameters;
+}
+
+}  // namespace milepost

@@ -1,0 +1,46 @@
+// Features of one frame and the parameters that make them, without OpenCV.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/feature/descriptor.h"
+
+namespace milepost {
+
+// A keypoint in the pixels of its frame: x to the right, y down, from the centre of the top left
+// pixel.
+struct Feature {
+  float x_px = 0;
+  float y_px = 0;
+  float scale_px = 0;  // diameter of the meaningful neighbourhood, > 0
+};
+
+// The features of one frame with one descriptor each.
+struct FeatureSet {
+  std::vector<Feature> features;
+  std::vector<Descriptor> descriptors;  // as many as features
+
+  std::size_t size() const { return features.size(); }
+};
+
+// Parameters of the extractor. Stored in the map, since descriptors and scales mean something only
+// to an extractor with the same ones: the client takes them from there.
+struct FeatureParameters {
+  int max_features = 1000;  // strongest responses kept; 0 keeps all
+  int octave_layers = 3;
+  double contrast_threshold = 0.04;
+  double edge_threshold = 10;
+  double sigma = 1.6;
+
+  friend bool operator==(const FeatureParameters&, const FeatureParameters&) = default;
+};
+
+// A JSON object with "kind": "sift" and one key a parameter; from_json rejects another kind, an
+// unknown or missing key, and values out of range. Errors: corrupt.
+std::string to_json(const FeatureParameters& parameters);
+Result<FeatureParameters> feature_parameters_from_json(const std::string& text);
+
+}  // namespace milepost

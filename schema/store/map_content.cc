@@ -1,0 +1,92 @@
+#include "schema/store/map_content.h"
+
+#include "schema/base/digest.h"
+
+namespace milepost {
+namespace {
+
+// One list that the build covers: its rows in the order of their keys.
+struct List {
+  const char* count;
+  const char* rows;
+  const char* columns;  // a letter each: t text, i integer, r real
+};
+
+constexpr List kLists[] = {
+    {"SELECT count(*) FROM layers", "SELECT name, parameters FROM layers ORDER BY name", "tt"},
+    {"SELECT count(*) FROM segments", "SELECT id, length_m FROM segments ORDER BY id", "tr"},
+    {"SELECT count(*) FROM vertices",
+     "SELECT segment, position, latitude_deg, longitude_deg, altitude_m, along_m FROM vertices "
+     "ORDER BY segment, position",
+     "tirrrr"},
+    {"SELECT count(*) FROM successors",
+     "SELECT segment, position, successor FROM successors ORDER BY segment, position", "tit"},
+    {"SELECT count(*) FROM tiles",
+     "SELECT segment, layer, number, from_m, to_m, items, bytes, digest FROM tiles "
+     "ORDER BY segment, layer, number",
+     "ttirriit"},
+};
+
+void add_row(FieldDigest& digest, const sqlite::Statement& row, const char* columns) {
+  for (int i = 0; columns[i] != '\0'; ++i) {
+    if (columns[i] == 't') {
+      digest.add(row.text(i));
+    } else if (columns[i] == 'i') {
+      digest.add(static_cast<std::uint64_t>(row.integer(i)));
+    } else {
+      digest.add(row.real(i));
+    }
+  }
+}
+
+// Runs a query and gives each of its rows to `use`.
+template <class Use>
+Status for_each_row(const sqlite::Database& map, const char* query, Use use) {
+  Result<sqlite::Statement> statement = map.prepare(query);
+  if (!statement) return statement.error();
+  while (true) {
+    const Result<bool> row = statement->step();
+    if (!row) return row.error();
+    if (!*row) return ok_status();
+    use(*statement);
+  }
+}
+
+Status add_list(FieldDigest& digest, const sqlite::Database& map, const List& list) {
+  const Status counted = for_each_row(map, list.count, [&](const sqlite::Statement& row) {
+    digest.add(static_cast<std::uint64_t>(row.integer(0)));
+  });
+  if (!counted.ok()) return counted;
+  return for_each_row(map, list.rows,
+                      [&](const sqlite::Statement& row) { add_row(digest, row, list.columns); });
+}
+
+}  // namespace
+
+Result<std::string> build_of(const sqlite::Database& map) {
+  FieldDigest digest;
+  digest.add(static_cast<std::uint64_t>(kMapFormatVersion));
+  Status status = for_each_row(map, "SELECT value FROM meta WHERE key = 'feature'",
+                               [&](const sqlite::Statement& row) { digest.add(row.text(0)); });
+  for (const List& list : kLists) {
+    if (!status.ok()) return status.error();
+    status = add_list(digest, map, list);
+  }
+  if (!status.ok()) return status.error();
+  return digest.finish();
+}
+
+Result<Bounds> bounds_of(const sqlite::Database& map) {
+  Bounds bounds;
+  const Status status = for_each_row(
+      map,
+      "SELECT min(longitude_deg), min(latitude_deg), max(longitude_deg), max(latitude_deg) "
+      "FROM vertices",
+      [&](const sqlite::Statement& row) {
+        bounds = {row.real(0), row.real(1), row.real(2), row.real(3)};
+      });
+  if (!status.ok()) return status.error();
+  return bounds;
+}
+
+}  // namespace milepost

@@ -1,0 +1,22 @@
+// What the writer and the reader of a map both compute from its tables.
+#pragma once
+
+#include <string>
+
+#include "schema/base/result.h"
+#include "schema/store/map_store.h"
+#include "schema/store/sqlite.h"
+
+namespace milepost {
+
+// PRAGMA application_id and user_version of map.sql.
+inline constexpr std::int64_t kMapApplicationId = 0x4D504D31;  // "MPM1"
+inline constexpr std::int64_t kMapFormatVersion = 1;
+
+// The digest of everything that readers of the map are told (FORMAT.md 2.7).
+Result<std::string> build_of(const sqlite::Database& map);
+
+// The smallest box around all vertices; zeros without vertices.
+Result<Bounds> bounds_of(const sqlite::Database& map);
+
+}  // namespace milepost

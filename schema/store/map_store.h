@@ -1,0 +1,121 @@
+// The map store: one SQLite file of segments and opaque tile bytes (map.sql, FORMAT.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "schema/base/bytes.h"
+#include "schema/base/ids.h"
+#include "schema/base/range.h"
+#include "schema/base/result.h"
+
+namespace milepost {
+
+// A vertex of a segment's line.
+struct StoredVertex {
+  double latitude_deg = 0;
+  double longitude_deg = 0;
+  double altitude_m = 0;
+  double along_m = 0;
+};
+
+struct StoredSegment {
+  std::string id;  // is_segment_id
+  double length_m = 0;
+  std::vector<StoredVertex> vertices;
+  std::vector<std::string> successors;
+};
+
+// One row of the tile index.
+struct TileEntry {
+  std::uint32_t index = 0;
+  AlongRange along;         // holds every item's along range
+  std::uint64_t items = 0;  // tracklets, for the layers of tracklets
+  std::uint64_t bytes = 0;
+  std::string digest;  // of the stored frame
+
+  friend bool operator==(const TileEntry& a, const TileEntry& b) {
+    return a.index == b.index && a.digest == b.digest;
+  }
+};
+
+struct Bounds {
+  double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
+};
+
+// Reads one map. Opens the file read only and never changes it; a map file is replaced by renaming,
+// so an open reader goes on reading the build it opened.
+// Not safe to use from several threads at once: open one reader a thread.
+class MapReader {
+ public:
+  // Errors: not_found, corrupt (no milepost map, or one of another format version), io.
+  static Result<MapReader> open(const std::filesystem::path& file);
+
+  MapReader(MapReader&&) noexcept;
+  MapReader& operator=(MapReader&&) noexcept;
+  ~MapReader();
+
+  const std::filesystem::path& file() const;
+  const std::string& build() const;         // digest of the content
+  const std::string& feature_json() const;  // the feature parameters, a JSON object
+  const Bounds& bounds() const;
+  const std::map<std::string, std::string>& layers() const;  // name -> parameters, a JSON object
+  const std::vector<std::string>& segment_ids() const;       // in the order of the ids
+
+  // Errors of all below: not_found (segment, layer or tile), corrupt, io.
+  Result<StoredSegment> segment(const std::string& id) const;
+  // The index of every tile of the layer, ascending.
+  Result<std::vector<TileEntry>> tile_index(const std::string& segment,
+                                            const std::string& layer) const;
+  // The tiles whose along range meets the closed range `range`, ascending: all that have an item
+  // there, and now and then one with a gap between its items there. REQUIRES: no NaN in `range`.
+  Result<std::vector<TileEntry>> tiles_in(const std::string& segment, const std::string& layer,
+                                          const AlongRange& range) const;
+  // The stored frame of one tile, as it lies in the file.
+  Result<Bytes> tile(const std::string& segment, const std::string& layer,
+                     std::uint32_t index) const;
+  // Reads every byte: SQLite's integrity check, every tile's digest, the build. Errors: corrupt,
+  // io.
+  Status verify() const;
+
+ private:
+  struct Impl;
+  explicit MapReader(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+// Writes one map. The file appears at its place whole, when finish() is called, or not at all.
+// The same calls give the same bytes. Not safe to use from several threads at once.
+class MapWriter {
+ public:
+  // Errors: io (no such folder, no permission, disk full).
+  // REQUIRES: no other writer of this process is at work on the same file.
+  static Result<MapWriter> create(const std::filesystem::path& file);
+
+  MapWriter(MapWriter&&) noexcept;
+  MapWriter& operator=(MapWriter&&) noexcept;
+  ~MapWriter();  // without finish(): removes what was written
+
+  // Errors of all below: io (disk full); invalid_input for an id, a name or a number that cannot
+  // be stored. After an error of SQLite the writer refuses everything with that error.
+  Status set_feature_json(const std::string& json);  // "{}" where it is not called
+  Status add_layer(const std::string& name, const std::string& parameters_json);
+  Status add_segment(const StoredSegment& segment);
+  // REQUIRES: the segment and the layer were added, (segment, layer, index) is new.
+  Status add_tile(const std::string& segment, const std::string& layer, std::uint32_t index,
+                  const AlongRange& along, std::uint64_t items, ByteView frame);
+  // Computes the build, publishes the file and returns the build. Nothing may be added after it.
+  Result<std::string> finish();
+
+ private:
+  struct Impl;
+  explicit MapWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace milepost

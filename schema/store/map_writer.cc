@@ -1,0 +1,234 @@
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "schema/base/digest.h"
+#include "schema/base/file.h"
+#include "schema/store/map_content.h"
+#include "schema/store/map_sql.h"
+#include "schema/store/map_store.h"
+#include "schema/store/sqlite.h"
+
+namespace milepost {
+namespace fs = std::filesystem;
+namespace {
+
+// What gives the same bytes from the same calls, and a flat need of memory: a fixed page size,
+// zeros in what is not used, one transaction. No journal: an unfinished file is thrown away whole,
+// and publish_file syncs a finished one.
+constexpr const char* kSettings =
+    "PRAGMA page_size = 4096; PRAGMA encoding = 'UTF-8'; PRAGMA auto_vacuum = NONE;"
+    "PRAGMA secure_delete = ON; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
+    "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -8192; PRAGMA foreign_keys = ON;";
+
+enum Insert { kMeta, kLayer, kSegment, kVertex, kSuccessor, kFrame, kTile };
+constexpr const char* kInserts[] = {
+    "INSERT INTO meta VALUES (?, ?)",
+    "INSERT INTO layers VALUES (?, ?)",
+    "INSERT INTO segments VALUES (?, ?)",
+    "INSERT INTO vertices VALUES (?, ?, ?, ?, ?, ?)",
+    "INSERT INTO successors VALUES (?, ?, ?)",
+    "INSERT INTO frames VALUES (?, ?)",
+    "INSERT INTO tiles VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+};
+constexpr const char* kInsertSpans =
+    "INSERT INTO spans SELECT segment, layer, max(to_m - from_m) FROM tiles GROUP BY segment, "
+    "layer";
+
+Error wrong_call(const fs::path& file, const std::string& what) {
+  return {ErrorCode::invalid_input, file.string(), what, ""};
+}
+
+bool is_finite(const StoredVertex& v) {
+  return std::isfinite(v.latitude_deg) && std::isfinite(v.longitude_deg) &&
+         std::isfinite(v.altitude_m) && std::isfinite(v.along_m);
+}
+
+// The database of a map in the making. The statements go before the connection they belong to.
+struct Session {
+  sqlite::Database database;
+  std::vector<sqlite::Statement> inserts;
+};
+
+Result<Session> start_session(const fs::path& partial) {
+  Result<sqlite::Database> database = sqlite::Database::open(partial, sqlite::Access::read_write);
+  if (!database) return database.error();
+  Status status = database->execute(kSettings);
+  if (status.ok()) status = database->execute("BEGIN EXCLUSIVE");
+  if (status.ok()) status = database->execute(kMapSql);
+  if (!status.ok()) return status.error();
+  Session session{std::move(*database), {}};
+  for (const char* sql : kInserts) {
+    Result<sqlite::Statement> insert = session.database.prepare(sql);
+    if (!insert) return insert.error();
+    session.inserts.push_back(std::move(*insert));
+  }
+  return session;
+}
+
+}  // namespace
+
+struct MapWriter::Impl {
+  fs::path file;
+  fs::path partial;                // empty once it is published
+  std::optional<Session> session;  // until finish()
+  std::string feature_json = "{}";
+  std::int64_t frames = 0;
+  Status failure;  // the first one: without a journal nothing can be undone, so it is the last
+
+  ~Impl() {
+    session.reset();
+    remove_partial();
+  }
+
+  void remove_partial() const {
+    std::error_code ignored;
+    if (!partial.empty()) fs::remove(partial, ignored);
+  }
+
+  sqlite::Statement& insert(Insert kind) { return session->inserts[kind]; }
+
+  // The user knows the map's name, not that of the partial file.
+  Error named(Error error) const {
+    error.where = file.string();
+    return error;
+  }
+
+  // Remembers a failure.
+  Status keep(const Status& status) {
+    if (!status.ok()) failure = named(status.error());
+    return failure;
+  }
+
+  template <class Value>
+  Status add_meta(const char* key, const Value& value) {
+    return insert(kMeta).bind(1, std::string_view(key)).bind(2, value).run();
+  }
+
+  Status add_vertices(const StoredSegment& segment) {
+    std::int64_t position = 0;
+    for (const StoredVertex& v : segment.vertices) {
+      const Status added = insert(kVertex)
+                               .bind(1, segment.id)
+                               .bind(2, position++)
+                               .bind(3, v.latitude_deg)
+                               .bind(4, v.longitude_deg)
+                               .bind(5, v.altitude_m)
+                               .bind(6, v.along_m)
+                               .run();
+      if (!added.ok()) return added;
+    }
+    return ok_status();
+  }
+
+  Status add_successors(const StoredSegment& segment) {
+    std::int64_t position = 0;
+    for (const std::string& successor : segment.successors) {
+      const Status added =
+          insert(kSuccessor).bind(1, segment.id).bind(2, position++).bind(3, successor).run();
+      if (!added.ok()) return added;
+    }
+    return ok_status();
+  }
+
+  Status add_bounds() {
+    const Result<Bounds> bounds = bounds_of(session->database);
+    if (!bounds) return bounds.error();
+    Status status = add_meta("west_deg", bounds->west_deg);
+    if (status.ok()) status = add_meta("south_deg", bounds->south_deg);
+    if (status.ok()) status = add_meta("east_deg", bounds->east_deg);
+    if (status.ok()) status = add_meta("north_deg", bounds->north_deg);
+    return status;
+  }
+
+  // Adds what is known only at the end. Returns the build.
+  Result<std::string> complete() {
+    Status status = session->database.execute(kInsertSpans);
+    if (status.ok()) status = add_bounds();
+    if (status.ok()) status = add_meta("feature", feature_json);
+    if (!status.ok()) return status.error();
+    Result<std::string> build = build_of(session->database);
+    if (!build) return build;
+    status = add_meta("build", *build);
+    if (status.ok()) status = session->database.execute("COMMIT");
+    if (!status.ok()) return status.error();
+    return build;
+  }
+};
+
+MapWriter::MapWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MapWriter::MapWriter(MapWriter&&) noexcept = default;
+MapWriter& MapWriter::operator=(MapWriter&&) noexcept = default;
+MapWriter::~MapWriter() = default;
+
+Result<MapWriter> MapWriter::create(const fs::path& file) {
+  auto impl = std::make_unique<Impl>();
+  impl->file = file;
+  impl->partial = partial_path_for(file);
+  impl->remove_partial();  // left by a killed process that had our number
+  Result<Session> session = start_session(impl->partial);
+  if (!session) return impl->named(session.error());
+  impl->session = std::move(*session);
+  return MapWriter(std::move(impl));
+}
+
+Status MapWriter::set_feature_json(const std::string& json) {
+  impl_->feature_json = json;
+  return impl_->failure;
+}
+
+Status MapWriter::add_layer(const std::string& name, const std::string& parameters_json) {
+  if (!impl_->failure.ok()) return impl_->failure;
+  if (!is_layer_name(name)) return wrong_call(impl_->file, "'" + name + "' is no layer's name");
+  return impl_->keep(impl_->insert(kLayer).bind(1, name).bind(2, parameters_json).run());
+}
+
+Status MapWriter::add_segment(const StoredSegment& segment) {
+  if (!impl_->failure.ok()) return impl_->failure;
+  if (!is_segment_id(segment.id)) {
+    return wrong_call(impl_->file, "'" + segment.id + "' is no segment's id");
+  }
+  if (!std::isfinite(segment.length_m) || !std::ranges::all_of(segment.vertices, is_finite)) {
+    return wrong_call(impl_->file, "segment " + segment.id + " has a number that is not finite");
+  }
+  Status status = impl_->insert(kSegment).bind(1, segment.id).bind(2, segment.length_m).run();
+  if (status.ok()) status = impl_->add_vertices(segment);
+  if (status.ok()) status = impl_->add_successors(segment);
+  return impl_->keep(status);
+}
+
+Status MapWriter::add_tile(const std::string& segment, const std::string& layer,
+                           std::uint32_t index, const AlongRange& along, std::uint64_t items,
+                           ByteView frame) {
+  if (!impl_->failure.ok()) return impl_->failure;
+  if (!std::isfinite(along.from_m) || !std::isfinite(along.to_m) || along.from_m > along.to_m) {
+    return wrong_call(impl_->file, "tile " + std::to_string(index) + " of segment " + segment +
+                                       " has no along range");
+  }
+  const std::int64_t frame_id = impl_->frames++;
+  const Status stored = impl_->insert(kFrame).bind(1, frame_id).bind(2, frame).run();
+  if (!stored.ok()) return impl_->keep(stored);
+  return impl_->keep(impl_->insert(kTile)
+                         .bind(1, segment)
+                         .bind(2, layer)
+                         .bind(3, static_cast<std::int64_t>(index))
+                         .bind(4, along.from_m)
+                         .bind(5, along.to_m)
+                         .bind(6, static_cast<std::int64_t>(items))
+                         .bind(7, static_cast<std::int64_t>(frame.size()))
+                         .bind(8, digest_of(frame))
+                         .bind(9, frame_id)
+                         .run());
+}
+
+Result<std::string> MapWriter::finish() {
+  if (!impl_->failure.ok()) return impl_->failure.error();
+  Result<std::string> build = impl_->complete();
+  if (!build) return impl_->keep(build.error()).error();
+  impl_->session.reset();
+  const Status published = publish_file(std::exchange(impl_->partial, {}), impl_->file);
+  if (!published.ok()) return impl_->keep(published).error();
+  return build;
+}
+
+}  // namespace milepost

@@ -1,0 +1,76 @@
+// A thin owner of SQLite handles: no query is hidden, no handle leaks, errors are values.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "schema/base/bytes.h"
+#include "schema/base/result.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace milepost::sqlite {
+
+// A prepared statement. Parameters and columns count from 1 and 0, as in SQLite.
+// Lives no longer than its Database.
+class Statement {
+ public:
+  Statement& bind(int parameter, std::int64_t value);
+  Statement& bind(int parameter, double value);
+  Statement& bind(int parameter, std::string_view value);  // copied
+  Statement& bind(int parameter, ByteView value);          // copied
+
+  // True if a row is there to read, false at the end. Errors: io (disk full too), corrupt,
+  // invalid_input (breaks a constraint), unavailable (locked by another process).
+  Result<bool> step();
+  // step() for a statement without rows, then reset().
+  Status run();
+  void reset();  // to run it again; bindings stay
+
+  std::int64_t integer(int column) const;
+  double real(int column) const;
+  std::string text(int column) const;
+  ByteView blob(int column) const;  // until the next step() or reset()
+
+ private:
+  friend class Database;
+  struct Finalizer {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  explicit Statement(sqlite3_stmt* statement) : statement_(statement) {}
+  std::unique_ptr<sqlite3_stmt, Finalizer> statement_;
+};
+
+enum class Access {
+  immutable,   // read only; the file never changes under this name (it is replaced by renaming)
+  read_write,  // made if it does not exist
+};
+
+// One connection. Not safe to use from several threads at once.
+class Database {
+ public:
+  // Errors: not_found (immutable only), io, corrupt.
+  static Result<Database> open(const std::filesystem::path& file, Access access);
+
+  // Runs one or more statements that give no rows. Errors: as Statement::step.
+  Status execute(const std::string& sql);
+  // Errors: corrupt (the file is no database, or lacks the table).
+  Result<Statement> prepare(std::string_view sql) const;
+  std::int64_t changes() const;  // rows that the last statement changed
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  struct Closer {
+    void operator()(sqlite3* database) const;
+  };
+  Database(sqlite3* database, std::filesystem::path file)
+      : database_(database), file_(std::move(file)) {}
+  std::unique_ptr<sqlite3, Closer> database_;
+  std::filesystem::path file_;
+};
+
+}  // namespace milepost::sqlite

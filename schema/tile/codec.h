@@ -1,0 +1,22 @@
+// Tiles to bytes and back: FlatBuffers (tile.fbs), size-prefixed, in one zstd frame with checksum.
+// FORMAT.md, section "Tiles", is the layout; messages name its paragraphs.
+#pragma once
+
+#include "schema/base/bytes.h"
+#include "schema/base/result.h"
+#include "schema/tile/tracklet.h"
+
+namespace milepost {
+
+// The stored frame of a tile: the same tile gives the same bytes.
+// REQUIRES: every tracklet satisfies the ranges of FORMAT.md (checked in decode).
+Bytes encode_tile(const TrackletTile& tile);
+
+// The tile of one stored frame. Never trusts a byte. Errors: corrupt, naming the paragraph broken.
+Result<TrackletTile> decode_tile(ByteView frame);
+
+// The length of the zstd frame at the start of `stream`, so that a range answer can be cut into
+// tiles; 0 if the stream ends inside the frame. Errors: corrupt (the stream is not a zstd frame).
+Result<std::size_t> stored_frame_length(ByteView stream);
+
+}  // namespace milepost
