@@ -1,0 +1,170 @@
+#include "mapper/build/build_map.h"
+
+#include <algorithm>
+#include <set>
+
+#include "mapper/build/layers.h"
+#include "mapper/build/segment_plan.h"
+#include "mapper/frames/frame_pipeline.h"
+#include "mapper/tiles/tile_assembler.h"
+#include "schema/store/map_store.h"
+#include "schema/tile/codec.h"
+
+namespace milepost {
+namespace {
+
+using OnProgress = std::function<bool(const BuildProgress&)>;
+
+// Regresses tracks into one layer of one segment and writes its tiles as they become complete.
+class LayerBuilder {
+ public:
+  LayerBuilder(TrackletLayer layer, const std::string& segment, double tile_length_m)
+      : layer_(std::move(layer)),
+        segment_(segment),
+        tiles_(segment, layer_.regression.model, tile_length_m) {}
+
+  void add(const std::vector<Track>& tracks) {
+    for (const Track& track : tracks) {
+      if (const auto tracklet = tracklet_from_track(track, layer_.regression))
+        tiles_.add(*tracklet);
+    }
+  }
+
+  Status write(const std::vector<TrackletTile>& complete, MapWriter& map,
+               BuildReport& report) const {
+    for (const TrackletTile& tile : complete) {
+      const Bytes frame = encode_tile(tile);
+      const Status added = map.add_tile(segment_, layer_.name, tile.index, tile.along(),
+                                        tile.tracklets.size(), frame);
+      if (!added.ok()) return added;
+      ++report.tiles;
+      if (layer_.name != "tracklets") continue;
+      report.tracklets += tile.tracklets.size();
+      report.tracklet_bytes += frame.size();
+    }
+    return ok_status();
+  }
+
+  TileAssembler& tiles() { return tiles_; }
+
+ private:
+  TrackletLayer layer_;
+  std::string segment_;
+  TileAssembler tiles_;
+};
+
+// Follows the features of one segment's frames through to its tiles.
+class SegmentBuilder {
+ public:
+  SegmentBuilder(const Drive& drive, const SegmentPlan& plan, const BuildSettings& settings)
+      : drive_(drive),
+        plan_(plan),
+        settings_(settings),
+        follower_(settings.follow, drive.camera.width_px) {
+    for (TrackletLayer& layer : tracklet_layers(settings)) {
+      layers_.emplace_back(std::move(layer), plan.id, settings.tile_length_m);
+    }
+  }
+
+  Status run(int jobs, MapWriter& map, BuildReport& report, BuildProgress& progress,
+             const OnProgress& on_progress) {
+    FramePipeline features(drive_, plan_.frame_indices, settings_.feature, jobs);
+    for (const double along_m : plan_.line.along_m()) {
+      const Result<FeatureSet> frame = features.next();
+      if (!frame) return frame.error();
+      const std::vector<Track> ended = follower_.add(*frame, along_m);
+      const Status written = add_and_write(ended, follower_.oldest_open_along_m(), map, report);
+      if (!written.ok()) return written;
+      ++progress.frames_done;
+      if (!on_progress(progress)) {
+        return Error{ErrorCode::cancelled, drive_.folder.string(),
+                     "stopped on request, no map was written", ""};
+      }
+    }
+    return add_and_write(follower_.finish(), plan_.line.length_m() + settings_.tile_length_m, map,
+                         report);
+  }
+
+ private:
+  Status add_and_write(const std::vector<Track>& ended, double complete_until_m, MapWriter& map,
+                       BuildReport& report) {
+    for (LayerBuilder& layer : layers_) {
+      layer.add(ended);
+      const Status written =
+          layer.write(layer.tiles().take_complete(complete_until_m), map, report);
+      if (!written.ok()) return written;
+    }
+    return ok_status();
+  }
+
+  const Drive& drive_;
+  const SegmentPlan& plan_;
+  const BuildSettings& settings_;
+  FeatureFollower follower_;
+  std::vector<LayerBuilder> layers_;
+};
+
+Status check_names_differ(const std::vector<SegmentPlan>& plans) {
+  std::set<std::string> names;
+  for (const SegmentPlan& plan : plans) {
+    if (names.insert(plan.id).second) continue;
+    return Error{ErrorCode::invalid_input, "drive '" + plan.id + "'", "two drives have this name",
+                 "give each drive.json a name of its own"};
+  }
+  return ok_status();
+}
+
+Status check_cameras_agree(const std::vector<Drive>& drives) {
+  for (const Drive& drive : drives) {
+    if (drive.camera == drives.front().camera) continue;
+    return Error{ErrorCode::invalid_input, (drive.folder / "drive.json").string(),
+                 "its camera is not that of " + (drives.front().folder / "drive.json").string(),
+                 "build a map for each camera"};
+  }
+  return ok_status();
+}
+
+}  // namespace
+
+Result<BuildReport> build_map(const std::vector<Drive>& drives,
+                              const std::filesystem::path& map_file, const BuildSettings& settings,
+                              int jobs, const OnProgress& on_progress) {
+  std::vector<SegmentPlan> plans;
+  BuildProgress progress;
+  for (const Drive& drive : drives) {
+    Result<SegmentPlan> plan = plan_segment(drive, settings.min_frame_spacing_m);
+    if (!plan) return plan.error();
+    progress.frames_total += plan->frame_indices.size();
+    plans.push_back(std::move(*plan));
+  }
+  for (const Status& checked : {check_names_differ(plans), check_cameras_agree(drives)}) {
+    if (!checked.ok()) return checked.error();
+  }
+
+  Result<MapWriter> map = MapWriter::create(map_file);
+  if (!map) return map.error();
+  Status status = map->set_feature_json(to_json(settings.feature));
+  for (const TrackletLayer& layer : tracklet_layers(settings)) {
+    if (status.ok())
+      status = map->add_layer(
+          layer.name, parameters_json(layer, drives.front().camera, settings.tile_length_m));
+  }
+  BuildReport report;
+  for (std::size_t i = 0; i < plans.size() && status.ok(); ++i) {
+    status = map->add_segment(stored_segment(plans[i]));
+    if (status.ok()) {
+      status = SegmentBuilder(drives[i], plans[i], settings)
+                   .run(jobs, *map, report, progress, on_progress);
+    }
+    report.length_m += plans[i].line.length_m();
+  }
+  if (!status.ok()) return status.error();
+  Result<std::string> build = map->finish();
+  if (!build) return build.error();
+  report.build = *build;
+  report.segments = plans.size();
+  report.frames = progress.frames_done;
+  return report;
+}
+
+}  // namespace milepost

@@ -1,0 +1,118 @@
+#include "mapper/cli/build_command.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <thread>
+
+#include <opencv2/core/utility.hpp>
+
+#include "mapper/build/build_map.h"
+#include "schema/command/command.h"
+
+namespace milepost {
+namespace {
+
+struct BuildOptions {
+  std::vector<std::string> drives;
+  std::string map;
+  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  BuildSettings settings;
+};
+
+void add_options(CLI::App& app, BuildOptions& options) {
+  app.add_option("--drive", options.drives, "Folder of a recorded drive; may be repeated")
+      ->required()
+      ->option_text("DIR");
+  app.add_option("--map", options.map, "Map file to write; an old one is replaced when all is done")
+      ->required()
+      ->option_text("FILE");
+  app.add_option("--jobs", options.jobs,
+                 "Threads that extract features; the map is the same for any number")
+      ->check(CLI::Range(1, 256))
+      ->option_text("N");
+  app.add_flag("--lab", options.settings.lab,
+               "Add the layers that the methods to compare with need");
+
+  BuildSettings& settings = options.settings;
+  const auto setting = [&app](const std::string& name, auto& value, const std::string& text,
+                              double low, double high) {
+    app.add_option("--" + name, value, text)
+        ->check(CLI::Range(low, high))
+        ->capture_default_str()
+        ->group("Settings (each changes the map)");
+  };
+  setting("max-features", settings.feature.max_features,
+          "Strongest features kept of a frame; 0: all", 0, 1e6);
+  setting("contrast-threshold", settings.feature.contrast_threshold, "SIFT's least contrast", 0, 1);
+  setting("min-r-squared", settings.regression.min_r_squared,
+          "Least R^2 of a tracklet's regression", 0, 1);
+  setting("min-observations", settings.follow.min_observations, "Least frames of a tracklet", 3,
+          1000);
+  setting("max-distance-ratio", settings.follow.max_distance_ratio,
+          "Ratio test of descriptor distances", 0.1, 1);
+  setting("search-radius-px", settings.follow.search_radius_px,
+          "Least radius of the search area of a followed feature", 1, 500);
+  setting("tile-length-m", settings.tile_length_m, "Length of road a tile", 1, 1000);
+  setting("min-frame-spacing-m", settings.min_frame_spacing_m,
+          "Frames nearer to the last one are passed over", 0.01, 100);
+  app.add_option("--scale-model", settings.regression.model,
+                 "Along is linear in: inverse-scale (exact), or scale (as published)")
+      ->transform(
+          CLI::CheckedTransformer(
+              std::map<std::string, ScaleModel>{{"inverse-scale", ScaleModel::inverse_scale},
+                                                {"scale", ScaleModel::scale}},
+              CLI::ignore_case)
+              .description(""))
+      ->option_text("MODEL [inverse-scale]")
+      ->group("Settings (each changes the map)");
+}
+
+std::string summary_line(const BuildReport& report, const std::string& map) {
+  std::ostringstream line;
+  line << std::fixed << std::setprecision(1) << map << ": build " << report.build << ", "
+       << report.segments << (report.segments == 1 ? " segment of " : " segments of ")
+       << report.length_m << " m, " << report.frames << " frames, " << report.tracklets
+       << " tracklets (" << static_cast<double>(report.tracklets) / report.length_m
+       << " a metre) in " << report.tiles << " tiles, " << std::setprecision(2)
+       << static_cast<double>(report.tracklet_bytes) / 1000 / report.length_m << " kB/m";
+  return line.str();
+}
+
+}  // namespace
+
+int run_build(const std::string& program, std::vector<std::string> words) {
+  CLI::App app(
+      "Makes a map from recorded drives.\n\n"
+      "Each drive becomes a segment of feature scale tracklets: SIFT features followed over\n"
+      "consecutive frames, with a regression from feature scale to the position along the road.\n"
+      "Example: milepost-mapper build --drive drives/monday --map maps/town.map",
+      program);
+  BuildOptions options;
+  add_options(app, options);
+  if (const auto code = parse_words(app, std::move(words))) return *code;
+
+  std::vector<Drive> drives;
+  for (const std::string& folder : options.drives) {
+    Result<Drive> drive = read_drive(folder);
+    if (!drive) return fail(program, drive.error());
+    drives.push_back(std::move(*drive));
+  }
+  catch_stop_signals();
+  cv::setNumThreads(1);  // one frame a thread uses the cores better than many threads a frame
+  Result<BuildReport> report = [&] {
+    ProgressLine progress;
+    return build_map(drives, options.map, options.settings, options.jobs,
+                     [&](const BuildProgress& at) {
+                       progress.show("frame " + std::to_string(at.frames_done) + " of " +
+                                     std::to_string(at.frames_total));
+                       return !stop_requested();
+                     });
+  }();
+  if (!report) return fail(program, report.error());
+  std::cout << summary_line(*report, options.map) << "\n";
+  return kExitDone;
+}
+
+}  // namespace milepost

@@ -1,0 +1,86 @@
+#include "mapper/frames/frame_pipeline.h"
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "schema/drive/frame_image.h"
+#include "schema/feature/extractor.h"
+
+namespace milepost {
+
+struct FramePipeline::Impl {
+  // Constant after construction.
+  const Drive& drive;
+  const std::vector<std::size_t> frame_indices;
+  const FeatureParameters parameters;
+  const std::size_t look_ahead;
+
+  // Protected by `mutex`.
+  std::mutex mutex;
+  std::condition_variable work_allowed;
+  std::condition_variable result_ready;
+  std::size_t next_to_start = 0;
+  std::size_t next_to_hand_out = 0;
+  std::map<std::size_t, Result<FeatureSet>> done;
+  bool stopping = false;
+
+  std::vector<std::thread> threads;
+
+  Impl(const Drive& from, std::vector<std::size_t> indices, const FeatureParameters& with,
+       int count)
+      : drive(from),
+        frame_indices(std::move(indices)),
+        parameters(with),
+        look_ahead(2 * static_cast<std::size_t>(count)) {}
+
+  // The position in `frame_indices` to work on, or nothing when there is no more work.
+  std::optional<std::size_t> start_one() {
+    std::unique_lock lock(mutex);
+    work_allowed.wait(lock, [this] {
+      return stopping || next_to_start == frame_indices.size() ||
+             next_to_start < next_to_hand_out + look_ahead;
+    });
+    if (stopping || next_to_start == frame_indices.size()) return std::nullopt;
+    return next_to_start++;
+  }
+
+  void work() {
+    FeatureExtractor extractor(parameters);
+    while (const auto position = start_one()) {
+      const Result<cv::Mat> gray = read_frame_gray(drive, frame_indices[*position]);
+      Result<FeatureSet> features =
+          gray ? Result<FeatureSet>(extractor.extract(*gray)) : gray.error();
+      const std::lock_guard lock(mutex);
+      done.emplace(*position, std::move(features));
+      result_ready.notify_one();
+    }
+  }
+};
+
+FramePipeline::FramePipeline(const Drive& drive, std::vector<std::size_t> frame_indices,
+                             const FeatureParameters& parameters, int threads)
+    : impl_(std::make_unique<Impl>(drive, std::move(frame_indices), parameters, threads)) {
+  for (int i = 0; i < threads; ++i) impl_->threads.emplace_back([this] { impl_->work(); });
+}
+
+FramePipeline::~FramePipeline() {
+  {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->stopping = true;
+  }
+  impl_->work_allowed.notify_all();
+  for (std::thread& thread : impl_->threads) thread.join();
+}
+
+Result<FeatureSet> FramePipeline::next() {
+  std::unique_lock lock(impl_->mutex);
+  impl_->result_ready.wait(lock, [this] { return impl_->done.contains(impl_->next_to_hand_out); });
+  auto taken = impl_->done.extract(impl_->next_to_hand_out++);
+  impl_->work_allowed.notify_all();
+  return std::move(taken.mapped());
+}
+
+}  // namespace milepost

@@ -1,0 +1,34 @@
+// Decodes frames and extracts their features on several threads, and hands them out in order.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/drive/drive.h"
+#include "schema/feature/types.h"
+
+namespace milepost {
+
+// Works a bounded number of frames ahead of the consumer, so memory does not grow with the drive.
+// next() is called from one thread; destruction stops the threads.
+class FramePipeline {
+ public:
+  // The features of `drive.frames[i]` for each i of `frame_indices`, on `threads` >= 1 threads.
+  // REQUIRES: `drive` outlives the pipeline.
+  FramePipeline(const Drive& drive, std::vector<std::size_t> frame_indices,
+                const FeatureParameters& parameters, int threads);
+  ~FramePipeline();
+  FramePipeline(const FramePipeline&) = delete;
+  FramePipeline& operator=(const FramePipeline&) = delete;
+
+  // The next frame's features. REQUIRES: called at most once a frame index.
+  // Errors: those of read_frame_gray.
+  Result<FeatureSet> next();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace milepost

@@ -1,0 +1,8 @@
+#include "mapper/cli/build_command.h"
+#include "schema/command/command.h"
+
+int main(int argc, char** argv) {
+  return milepost::run_program(
+      "milepost-mapper", "Turns recorded drives into maps for camera localization.",
+      {{"build", "recorded drives -> a map file", milepost::run_build}}, argc, argv);
+}
