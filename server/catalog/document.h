@@ -1,0 +1,16 @@
+// A JSON document that is built once and sent many times.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace milepost::server {
+
+struct Document {
+  std::shared_ptr<const std::string> text;
+  std::string digest;  // of the text
+};
+
+Document document_of(std::string text);
+
+}  // namespace milepost::server

@@ -1,0 +1,88 @@
+#include "server/catalog/map_documents.h"
+
+#include <nlohmann/json.hpp>
+
+namespace milepost::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Result<Json> parsed_object(const std::string& text, const std::string& where) {
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) {
+    return Error{ErrorCode::corrupt, where, "the parameters are no JSON object",
+                 "build the map anew"};
+  }
+  return json;
+}
+
+Json bounds_json(const Bounds& bounds) {
+  return {{"west_deg", bounds.west_deg},
+          {"south_deg", bounds.south_deg},
+          {"east_deg", bounds.east_deg},
+          {"north_deg", bounds.north_deg}};
+}
+
+Json line_json(const std::vector<StoredVertex>& vertices) {
+  Json line = Json::array();
+  for (const StoredVertex& vertex : vertices) {
+    line.push_back({vertex.latitude_deg, vertex.longitude_deg, vertex.altitude_m, vertex.along_m});
+  }
+  return line;
+}
+
+Json tile_json(const TileEntry& tile) {
+  return {{"index", tile.index}, {"from_m", tile.along.from_m}, {"to_m", tile.along.to_m},
+          {"items", tile.items}, {"bytes", tile.bytes},         {"digest", tile.digest}};
+}
+
+Json tiles_json(const std::map<std::string, std::vector<TileEntry>>& layers) {
+  Json json = Json::object();
+  for (const auto& [layer, tiles] : layers) {
+    Json list = Json::array();
+    for (const TileEntry& tile : tiles) list.push_back(tile_json(tile));
+    json[layer] = std::move(list);
+  }
+  return json;
+}
+
+}  // namespace
+
+Result<std::string> map_document(const std::string& name, const MapReader& reader,
+                                 double length_m) {
+  Json layers = Json::array();
+  Json parameters = Json::object();
+  for (const auto& [layer, text] : reader.layers()) {
+    Result<Json> object = parsed_object(text, reader.file().string() + ", layer " + layer);
+    if (!object) return object.error();
+    layers.push_back(layer);
+    parameters[layer] = std::move(*object);
+  }
+  Result<Json> feature =
+      parsed_object(reader.feature_json(), reader.file().string() + ", feature parameters");
+  if (!feature) return feature.error();
+  const Json json = {{"name", name},
+                     {"build", reader.build()},
+                     {"layers", std::move(layers)},
+                     {"layer_parameters", std::move(parameters)},
+                     {"feature", std::move(*feature)},
+                     {"bounds", bounds_json(reader.bounds())},
+                     {"segments", reader.segment_ids()},
+                     {"length_m", length_m}};
+  return json.dump();
+}
+
+std::string segment_document(const std::string& map, const std::string& build,
+                             const StoredSegment& segment,
+                             const std::map<std::string, std::vector<TileEntry>>& tiles) {
+  const Json json = {{"map", map},
+                     {"build", build},
+                     {"segment", segment.id},
+                     {"length_m", segment.length_m},
+                     {"line", line_json(segment.vertices)},
+                     {"successors", segment.successors},
+                     {"tiles", tiles_json(tiles)}};
+  return json.dump();
+}
+
+}  // namespace milepost::server

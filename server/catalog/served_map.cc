@@ -1,0 +1,86 @@
+#include "server/catalog/served_map.h"
+
+#include "server/catalog/map_documents.h"
+
+namespace milepost::server {
+namespace {
+
+Result<RouteLine> line_of(const StoredSegment& segment) {
+  std::vector<GeoPoint> points;
+  points.reserve(segment.vertices.size());
+  for (const StoredVertex& vertex : segment.vertices) {
+    points.push_back({vertex.latitude_deg, vertex.longitude_deg, vertex.altitude_m});
+  }
+  return RouteLine::from_vertices(std::move(points));
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ServedMap>> ServedMap::open(const std::string& name,
+                                                         const std::filesystem::path& file,
+                                                         unsigned readers) {
+  Result<std::unique_ptr<ReaderPool>> pool = ReaderPool::open(file, readers);
+  if (!pool) return pool.error();
+  const std::shared_ptr<ServedMap> map(new ServedMap);
+  map->name_ = name;
+  map->file_ = file;
+  map->readers_ = std::move(*pool);
+  const Status loaded = map->load(*map->readers_->lend());
+  if (!loaded) return loaded.error();
+  return std::shared_ptr<const ServedMap>(map);
+}
+
+Status ServedMap::load(const MapReader& reader) {
+  build_ = reader.build();
+  layers_ = reader.layers();
+  double length_m = 0;
+  for (const std::string& id : reader.segment_ids()) {
+    const Status loaded = load_segment(reader, id);
+    if (!loaded) return loaded;
+    const ServedSegment& segment = segments_.at(id);
+    box_ = segments_.size() == 1 ? segment.box : DegreeBox::joined(box_, segment.box);
+    length_m += segment.length_m;
+  }
+  Result<std::string> text = map_document(name_, reader, length_m);
+  if (!text) return text.error();
+  document_ = document_of(std::move(*text));
+  return ok_status();
+}
+
+Status ServedMap::load_segment(const MapReader& reader, const std::string& id) {
+  Result<StoredSegment> stored = reader.segment(id);
+  if (!stored) return stored.error();
+  Result<RouteLine> line = line_of(*stored);
+  if (!line) {
+    return Error{ErrorCode::corrupt, file_.string() + ", segment " + id, line.error().what,
+                 "build the map anew"};
+  }
+  std::map<std::string, std::vector<TileEntry>> tiles;
+  for (const auto& [layer, parameters] : layers_) {
+    Result<std::vector<TileEntry>> index = reader.tile_index(id, layer);
+    if (!index) return index.error();
+    tiles[layer] = std::move(*index);
+  }
+  Document document = document_of(segment_document(name_, build_, *stored, tiles));
+  const DegreeBox box = DegreeBox::around(line->vertices());
+  segments_.emplace(id, ServedSegment{stored->length_m, std::move(*line), box, std::move(tiles),
+                                      std::move(document)});
+  return ok_status();
+}
+
+Result<Bytes> ServedMap::tile(const std::string& segment, const std::string& layer,
+                              const TileEntry& entry) const {
+  Result<Bytes> frame = readers_->lend()->tile(segment, layer, entry.index);
+  if (!frame) return frame;
+  // The store has checked the digest. The length was promised to the client before.
+  if (frame->size() != entry.bytes) {
+    return Error{ErrorCode::corrupt,
+                 file_.string() + ", segment " + segment + ", layer " + layer + ", tile " +
+                     std::to_string(entry.index),
+                 "the length is not the one in the tile index",
+                 "replace the file by a good copy, or build the map anew"};
+  }
+  return frame;
+}
+
+}  // namespace milepost::server

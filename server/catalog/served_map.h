@@ -1,0 +1,62 @@
+// One map as requests need it: lines, documents and the tile index in memory, tiles on the disk.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "schema/geo/route_line.h"
+#include "schema/store/map_store.h"
+#include "server/catalog/degree_box.h"
+#include "server/catalog/document.h"
+#include "server/catalog/reader_pool.h"
+
+namespace milepost::server {
+
+struct ServedSegment {
+  double length_m = 0;  // as the map states it
+  RouteLine line;
+  DegreeBox box;
+  std::map<std::string, std::vector<TileEntry>> tiles;  // layer -> index, ascending; every layer
+  Document document;
+};
+
+// Immutable, so safe to share between threads.
+class ServedMap {
+ public:
+  // Opens `readers` readers, one for each thread that will ask for tiles.
+  // Errors: those of MapReader.
+  static Result<std::shared_ptr<const ServedMap>> open(const std::string& name,
+                                                       const std::filesystem::path& file,
+                                                       unsigned readers);
+
+  const std::string& name() const { return name_; }
+  const std::string& build() const { return build_; }
+  const std::map<std::string, ServedSegment>& segments() const { return segments_; }
+  const Document& document() const { return document_; }
+  const DegreeBox& box() const { return box_; }  // of all segments' lines
+
+  // The stored frame of a tile, checked against its entry in the index.
+  // Errors: corrupt (the frame is not the one of the index), io.
+  Result<Bytes> tile(const std::string& segment, const std::string& layer,
+                     const TileEntry& entry) const;
+
+ private:
+  ServedMap() = default;
+  Status load(const MapReader& reader);
+  Status load_segment(const MapReader& reader, const std::string& id);
+
+  // Constant after construction.
+  std::string name_;
+  std::string build_;
+  std::filesystem::path file_;
+  std::map<std::string, std::string> layers_;
+  std::map<std::string, ServedSegment> segments_;
+  DegreeBox box_;
+  Document document_;
+  std::unique_ptr<ReaderPool> readers_;  // synchronizes itself
+};
+
+}  // namespace milepost::server

@@ -1,0 +1,95 @@
+#include "server/handle.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "server/conditional.h"
+#include "server/routes/routes.h"
+#include "server/target.h"
+
+namespace milepost::server {
+namespace {
+
+struct Route {
+  std::string_view pattern;
+  std::vector<std::string_view> parameters;  // of the query
+  Result<Response> (*answer)(const Call&);
+};
+
+const std::vector<Route>& routes() {
+  static const std::vector<Route> table = {
+      {"/healthz", {}, answer_health},
+      {"/readyz", {}, answer_ready},
+      {"/openapi.yaml", {}, answer_openapi},
+      {"/v1/maps", {}, answer_maps},
+      {"/v1/maps/{map}", {}, answer_map},
+      {"/v1/segments", {"near", "radius_m"}, answer_segments_near},
+      {"/v1/maps/{map}/builds/{build}/segments/{segment}", {}, answer_segment},
+      {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles",
+       {"layer", "from_m", "to_m"},
+       answer_tile_range},
+      {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles/{layer}/{index}", {}, answer_tile},
+  };
+  return table;
+}
+
+// The values of the pattern's {braces} if the path fits it.
+std::optional<std::vector<std::string>> fit(std::string_view pattern,
+                                            const std::vector<std::string>& path) {
+  std::vector<std::string> values;
+  for (const std::string& segment : path) {
+    if (!pattern.starts_with('/')) return std::nullopt;
+    pattern.remove_prefix(1);
+    const std::string_view expected = pattern.substr(0, pattern.find('/'));
+    if (expected.starts_with('{') && !segment.empty()) {
+      values.push_back(segment);
+    } else if (expected != segment) {
+      return std::nullopt;
+    }
+    pattern.remove_prefix(expected.size());
+  }
+  return pattern.empty() ? std::optional(std::move(values)) : std::nullopt;
+}
+
+Response method_not_allowed(const std::string& method) {
+  Response response = problem(405, "method " + method + ": is not allowed here; use GET or HEAD");
+  response.headers.emplace_back("Allow", "GET, HEAD");
+  return response;
+}
+
+Response answer(const Route& route, const Request& request, const Call& call) {
+  if (request.method != "GET" && request.method != "HEAD") {
+    return method_not_allowed(request.method);
+  }
+  const Status allowed = call.query.allow_only(route.parameters);
+  if (!allowed) return problem(allowed.error());
+  Result<Response> response = route.answer(call);
+  if (!response) return problem(response.error());
+  return unless_known(std::move(*response), request.if_none_match);
+}
+
+}  // namespace
+
+Response handle(const Request& request, const Catalog& catalog) {
+  if (request.target.size() > kMaxTargetBytes) {
+    return problem(414, "the address is longer than " + std::to_string(kMaxTargetBytes) +
+                            " bytes; no address of this server is");
+  }
+  const Result<Target> target = Target::parse(request.target);
+  if (!target) return problem(target.error());
+  for (const Route& route : routes()) {
+    std::optional<std::vector<std::string>> values = fit(route.pattern, target->path);
+    if (!values) continue;
+    return answer(route, request, {catalog, std::move(*values), target->query});
+  }
+  return problem(404, "there is nothing at this path; /openapi.yaml lists the paths");
+}
+
+std::vector<std::string_view> path_patterns() {
+  std::vector<std::string_view> patterns;
+  for (const Route& route : routes()) patterns.push_back(route.pattern);
+  return patterns;
+}
+
+}  // namespace milepost::server

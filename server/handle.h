@@ -1,0 +1,24 @@
+// The whole of the server's behaviour as a function of values: no sockets, no clock, no state.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "server/catalog/catalog.h"
+#include "server/request.h"
+#include "server/response.h"
+
+namespace milepost::server {
+
+// A longer target is answered with 414.
+inline constexpr std::size_t kMaxTargetBytes = 4096;
+
+// The answer to a request (PROTOCOL.md). HEAD gets the answer of GET; whoever sends it leaves the
+// body out. Safe to call from several threads at once. The answer keeps alive what it refers to.
+Response handle(const Request& request, const Catalog& catalog);
+
+// The paths that are answered, as in openapi.yaml: "/v1/maps/{map}".
+std::vector<std::string_view> path_patterns();
+
+}  // namespace milepost::server

@@ -1,0 +1,20 @@
+// Asio as the server uses it: coroutines that are told of errors by value.
+#pragma once
+
+// Boost 1.74's awaitable.hpp uses std::exchange without including it.
+#include <utility>
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/system/error_code.hpp>
+
+namespace milepost::server {
+
+namespace net = boost::asio;
+using boost::system::error_code;
+
+// A completion token: co_await gives the result, and the error goes into `error`.
+inline auto awaited(error_code& error) { return net::redirect_error(net::use_awaitable, error); }
+
+}  // namespace milepost::server

@@ -1,0 +1,29 @@
+// The body of an answer, piece by piece: memory holds one tile at a time.
+#pragma once
+
+#include <cstddef>
+
+#include "schema/base/bytes.h"
+#include "schema/base/result.h"
+#include "server/response.h"
+
+namespace milepost::server {
+
+class BodyReader {
+ public:
+  // Reads nothing if the client wants no body. `response` must outlive the reader.
+  BodyReader(const Response& response, bool wanted);
+
+  bool done() const { return given_ == pieces_; }
+  // The next piece: the whole text, or one tile; empty when done. Valid until the next call.
+  // Errors: those of ServedMap::tile.
+  Result<ByteView> next();
+
+ private:
+  const Response* response_;
+  std::size_t pieces_ = 0;
+  std::size_t given_ = 0;
+  Bytes tile_;
+};
+
+}  // namespace milepost::server

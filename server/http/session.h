@@ -1,0 +1,71 @@
+// One connection: requests are read and answered one after the other.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+
+#include "server/catalog/catalog.h"
+#include "server/http/asio.h"
+#include "server/http/body_reader.h"
+#include "server/http/sessions.h"
+#include "server/request.h"
+#include "server/response.h"
+#include "server/settings.h"
+
+namespace milepost::server {
+
+// All work of a session runs on the strand of its socket, so its members need no lock.
+// A session keeps itself alive while it runs.
+class Session : public std::enable_shared_from_this<Session> {
+ public:
+  enum class Service {
+    serve,      // as usual
+    turn_away,  // the first request is told 503: too many connections are open
+  };
+
+  // `socket` must run on a strand. `sessions` must outlive the session.
+  Session(net::ip::tcp::socket socket, Service service, std::shared_ptr<const Catalog> catalog,
+          const ConnectionLimits& limits, Sessions& sessions);
+
+  void start();
+  // May be called from any thread: closes when the answer under way, if any, is sent.
+  void finish();
+  // May be called from any thread: closes at once.
+  void abort();
+
+ private:
+  // A request as it was read, or the answer to one that cannot be read further.
+  struct Incoming {
+    Request request;
+    unsigned http_version = 11;
+    bool keep_alive = false;
+    std::unique_ptr<Response> refusal;
+  };
+
+  net::awaitable<void> run();
+  net::awaitable<bool> await_first_byte();
+  net::awaitable<std::unique_ptr<Incoming>> read_request();
+  net::awaitable<bool> answer(const Incoming& incoming);
+  net::awaitable<bool> send(std::string_view head, ByteView first, BodyReader& rest);
+  net::awaitable<bool> write(std::string_view head, ByteView body);
+  net::awaitable<void> linger();
+  Response response_to(const Incoming& incoming) const;
+  void close();
+
+  const Service service_;
+  const std::shared_ptr<const Catalog> catalog_;
+  const ConnectionLimits limits_;
+  Sessions& sessions_;
+  std::string peer_;  // address, for the log
+
+  boost::beast::tcp_stream stream_;
+  boost::beast::flat_buffer buffer_;
+  bool waiting_ = false;    // for the client, with nothing under way
+  bool finishing_ = false;  // no further request is read
+};
+
+}  // namespace milepost::server

@@ -1,0 +1,106 @@
+#include "server/options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <string_view>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+namespace milepost::server {
+namespace {
+
+constexpr int kWrongCall = 2;
+constexpr unsigned kMaxThreads = 256;
+
+constexpr const char* kDescription =
+    "Serves the maps of a directory over HTTP: clients in vehicles ask for the tiles of a segment "
+    "by along range.\nEvery file of the directory that is a milepost map is served under its "
+    "name without the extension.";
+
+constexpr const char* kExamples = R"~(Examples:
+  milepost-server --maps /srv/milepost --listen 0.0.0.0:8080
+      serves on every IPv4 address of this host
+  milepost-server --maps maps --listen '[::1]:8080' --threads 4
+      serves on loopback over IPv6, with four threads
+  milepost-server --maps maps --listen 127.0.0.1:0
+      lets the system choose a port and prints it: "listening on 127.0.0.1:40123 (2 maps)"
+  milepost-server --config server.toml
+      takes the same options as keys:
+          maps = "/srv/milepost"
+          listen = "0.0.0.0:8080"
+          threads = 4
+  curl http://127.0.0.1:8080/v1/maps
+      lists the maps; /openapi.yaml describes every address
+
+It serves until SIGINT (Ctrl-C) or SIGTERM, then lets answers under way end and exits with 0.
+Exit codes: 0 stopped on request, 1 the maps or the address cannot be used, 2 wrong call.)~";
+
+// Splits "ADDR:PORT" or "[ADDR]:PORT" at the last colon. False if the form is another.
+bool split_listen(std::string_view text, std::string& address, std::uint16_t& port) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos || colon == 0) return false;
+  std::string_view host = text.substr(0, colon);
+  const std::string_view digits = text.substr(colon + 1);
+  if (host.starts_with('[') && host.ends_with(']')) {
+    host = host.substr(1, host.size() - 2);
+  } else if (host.find(':') != std::string_view::npos) {
+    return false;
+  }
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+  address = std::string(host);
+  return error == std::errc() && end == digits.data() + digits.size();
+}
+
+unsigned default_threads() {
+  return std::clamp(std::thread::hardware_concurrency(), 1U, kMaxThreads);
+}
+
+// CLI11 says what is wrong in one line or more; this keeps to one, with the mend.
+int wrong_call(const std::string& what) {
+  std::string line = what;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::cerr << "milepost-server: " << line << "; milepost-server --help shows how\n";
+  return kWrongCall;
+}
+
+}  // namespace
+
+std::variant<Options, int> parse_options(int argc, const char* const* argv) {
+  Options options;
+  options.threads = default_threads();
+  std::string listen;
+
+  CLI::App app(kDescription, "milepost-server");
+  app.footer(kExamples);
+  app.set_version_flag("--version", "milepost-server " MILEPOST_VERSION);
+  app.set_config("--config", "", "File with the options below as keys")->type_name("FILE");
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  app.add_option("--maps", options.maps, "Directory of the map files")
+      ->required()
+      ->type_name("DIR");
+  app.add_option("--listen", listen, "Address and port to listen on; port 0 lets the system choose")
+      ->required()
+      ->type_name("ADDR:PORT");
+  app.add_option("--threads", options.threads, "Threads that answer requests")
+      ->check(CLI::Range(1U, kMaxThreads))
+      ->type_name("N")
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ConfigError& error) {
+    return wrong_call(std::string("configuration file: ") + error.what() +
+                      "; the keys are maps, listen and threads");
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    return wrong_call(error.what());
+  }
+  if (!split_listen(listen, options.address, options.port)) {
+    return wrong_call("--listen " + listen +
+                      ": is no ADDR:PORT; write 127.0.0.1:8080 or [::1]:8080");
+  }
+  return options;
+}
+
+}  // namespace milepost::server

@@ -1,0 +1,22 @@
+// The command line and the configuration file of milepost-server.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+
+namespace milepost::server {
+
+struct Options {
+  std::filesystem::path maps;
+  std::string address;
+  std::uint16_t port = 0;
+  unsigned threads = 1;
+};
+
+// The options, or the exit code if there is nothing to do: 0 after --help and --version, 2 after a
+// wrong call. What is to be said has been said, on standard output or on standard error.
+std::variant<Options, int> parse_options(int argc, const char* const* argv);
+
+}  // namespace milepost::server

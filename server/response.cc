@@ -1,0 +1,85 @@
+#include "server/response.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace milepost::server {
+namespace {
+
+std::string title_of(unsigned status) {
+  switch (status) {
+    case 400:
+      return "Bad Request";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 410:
+      return "Gone";
+    case 413:
+      return "Content Too Large";
+    case 414:
+      return "URI Too Long";
+    case 431:
+      return "Request Header Fields Too Large";
+    case 503:
+      return "Service Unavailable";
+    default:
+      return "Internal Server Error";
+  }
+}
+
+unsigned status_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::invalid_input:
+      return 400;
+    case ErrorCode::not_found:
+      return 404;
+    case ErrorCode::gone:
+      return 410;
+    case ErrorCode::unavailable:
+    case ErrorCode::cancelled:
+      return 503;
+    case ErrorCode::corrupt:
+    case ErrorCode::io:
+      break;
+  }
+  return 500;
+}
+
+}  // namespace
+
+std::string_view Response::header(std::string_view name) const {
+  const auto found = std::find_if(headers.begin(), headers.end(),
+                                  [name](const auto& header) { return header.first == name; });
+  return found == headers.end() ? std::string_view() : found->second;
+}
+
+std::uint64_t Response::content_length() const {
+  if (const auto* text = std::get_if<SharedText>(&body)) return *text ? (*text)->size() : 0;
+  std::uint64_t bytes = 0;
+  for (const TileEntry* tile : std::get<TileList>(body).tiles) bytes += tile->bytes;
+  return bytes;
+}
+
+SharedText shared_text(std::string text) {
+  return std::make_shared<const std::string>(std::move(text));
+}
+
+Response problem(unsigned status, const std::string& detail) {
+  const nlohmann::ordered_json json = {
+      {"type", "about:blank"}, {"title", title_of(status)}, {"status", status}, {"detail", detail}};
+  Response response;
+  response.status = status;
+  response.headers = {{"Content-Type", "application/problem+json"}, {"Cache-Control", "no-store"}};
+  if (status == 503) response.headers.emplace_back("Retry-After", "1");
+  // The detail may quote bytes of the request that are no UTF-8.
+  response.body = shared_text(
+      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  return response;
+}
+
+Response problem(const Error& error) { return problem(status_of(error.code), error.line()); }
+
+}  // namespace milepost::server

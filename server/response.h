@@ -1,0 +1,46 @@
+// What a client is told, as values: nothing here knows a socket.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "server/catalog/served_map.h"
+
+namespace milepost::server {
+
+using SharedText = std::shared_ptr<const std::string>;
+
+// Stored tiles of one layer of one segment, to be sent one after the other as they lie in the map.
+// Keeps the map alive; the tiles' bytes are read only while they are sent.
+struct TileList {
+  std::shared_ptr<const ServedMap> map;
+  std::string segment;
+  std::string layer;
+  std::vector<const TileEntry*> tiles;  // entries of `map`, ascending by index
+};
+
+struct Response {
+  unsigned status = 200;
+  std::vector<std::pair<std::string, std::string>> headers;  // without Content-Length
+  std::variant<SharedText, TileList> body;                   // a null text is an empty body
+
+  // The value of a header, empty if absent. `name` as it was added.
+  std::string_view header(std::string_view name) const;
+  // Bytes of the body, known before any tile is read.
+  std::uint64_t content_length() const;
+};
+
+SharedText shared_text(std::string text);
+
+// An application/problem+json answer: `status` and what is wrong and what would be right.
+Response problem(unsigned status, const std::string& detail);
+// The same for an error value: 400, 404, 410, 503 or 500 by its code.
+Response problem(const Error& error);
+
+}  // namespace milepost::server

@@ -1,0 +1,21 @@
+// Successful answers with their caching rules.
+#pragma once
+
+#include <string>
+
+#include "server/catalog/document.h"
+#include "server/response.h"
+
+namespace milepost::server {
+
+// Plain text that is not cached.
+Response plain_text(std::string text);
+// Text that may change at any time: a cache asks each time whether its copy still holds.
+Response current_text(const Document& document, const char* content_type);
+Response current_json(const Document& document);
+// JSON that never changes under its address.
+Response immutable_json(const Document& document);
+// Stored tiles, which never change under their address. `digest` stands for all of them.
+Response immutable_tiles(TileList tiles, const std::string& digest);
+
+}  // namespace milepost::server

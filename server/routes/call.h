@@ -1,0 +1,18 @@
+// What a route gets: the catalog, the values in the path's braces, the query.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "server/catalog/catalog.h"
+#include "server/target.h"
+
+namespace milepost::server {
+
+struct Call {
+  const Catalog& catalog;
+  std::vector<std::string> path;  // the values of {braces}, in the pattern's order
+  const Query& query;             // holds no parameter but the route's, and none twice
+};
+
+}  // namespace milepost::server

@@ -1,0 +1,25 @@
+// Routes whose documents the catalog holds ready.
+#include "server/routes/answers.h"
+#include "server/routes/find.h"
+#include "server/routes/routes.h"
+
+namespace milepost::server {
+
+Result<Response> answer_maps(const Call& call) { return current_json(call.catalog.document()); }
+
+Result<Response> answer_map(const Call& call) {
+  const Result<std::shared_ptr<const ServedMap>> map = find_map(call.catalog, call.path[0]);
+  if (!map) return map.error();
+  return current_json((*map)->document());
+}
+
+Result<Response> answer_segment(const Call& call) {
+  const Result<std::shared_ptr<const ServedMap>> map =
+      find_build(call.catalog, call.path[0], call.path[1]);
+  if (!map) return map.error();
+  const Result<const ServedSegment*> segment = find_segment(**map, call.path[2]);
+  if (!segment) return segment.error();
+  return immutable_json((*segment)->document);
+}
+
+}  // namespace milepost::server

@@ -1,0 +1,19 @@
+// The routes, one function each. All are pure; errors become problem answers by their code.
+#pragma once
+
+#include "server/response.h"
+#include "server/routes/call.h"
+
+namespace milepost::server {
+
+Result<Response> answer_health(const Call& call);         // /healthz
+Result<Response> answer_ready(const Call& call);          // /readyz
+Result<Response> answer_openapi(const Call& call);        // /openapi.yaml
+Result<Response> answer_maps(const Call& call);           // /v1/maps
+Result<Response> answer_map(const Call& call);            // /v1/maps/{map}
+Result<Response> answer_segments_near(const Call& call);  // /v1/segments?near=LAT,LON&radius_m=R
+Result<Response> answer_segment(const Call& call);        // …/segments/{segment}
+Result<Response> answer_tile_range(const Call& call);     // …/tiles?layer=L&from_m=A&to_m=B
+Result<Response> answer_tile(const Call& call);           // …/tiles/{layer}/{index}
+
+}  // namespace milepost::server
