@@ -1,0 +1,92 @@
+// What the vehicle keeps on disk: tiles, and the documents that tell which tiles there are.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/cache/cache_file.h"
+#include "schema/base/bytes.h"
+#include "schema/base/result.h"
+#include "schema/store/sqlite.h"
+
+namespace milepost {
+
+// Names one entry. Everything under a build is immutable, so an entry never goes stale.
+struct CacheKey {
+  std::string map;
+  std::string build;
+  std::string segment;       // empty: the map's own document
+  std::string layer;         // empty: a document
+  std::uint32_t number = 0;  // the tile's index; 0 for documents
+
+  static CacheKey map_document(std::string map, std::string build) {
+    return {std::move(map), std::move(build), "", "", 0};
+  }
+  static CacheKey segment_document(std::string map, std::string build, std::string segment) {
+    return {std::move(map), std::move(build), std::move(segment), "", 0};
+  }
+};
+
+struct CachedDocument {
+  CacheKey key;
+  std::string content;
+};
+
+struct CacheSettings {
+  std::filesystem::path folder;             // made if need be
+  std::uint64_t limit_bytes = 1ULL << 30U;  // of the contents; SQLite adds a few percent
+  std::function<std::int64_t()> now_s;      // seconds since 1970
+};
+
+// Counts since the cache was opened.
+struct CacheCounters {
+  std::uint64_t failures = 0;         // reads and stores that the disk or a lock refused
+  std::uint64_t damaged_entries = 0;  // dropped, for their bytes did not match their digest
+  std::uint64_t damaged_files = 0;    // set aside
+};
+
+// One SQLite file, shared with other processes that name the same folder. It is allowed to forget:
+// a full disk, a lock held too long and a damaged file are counted and otherwise look like an empty
+// cache. A process killed at any instant leaves whole entries only.
+// Safe to use from several threads at once.
+class TileCache {
+ public:
+  // Errors: io (the folder cannot be made or written to).
+  static Result<std::unique_ptr<TileCache>> open(CacheSettings settings);
+
+  // The content, if it is there and has the digest it was stored with, and counts as a use.
+  std::optional<Bytes> find(const CacheKey& key);
+  // The same for one whose digest is known.
+  std::optional<Bytes> find(const CacheKey& key, const std::string& digest);
+  // Counts as a use of the entry, if it is there.
+  void touch(const CacheKey& key);
+  // Adds or replaces an entry, and removes the least recently used ones beyond the limit.
+  void store(const CacheKey& key, ByteView content);
+  void remove(const CacheKey& key);
+  // The segment documents of each map's most recently used build.
+  std::vector<CachedDocument> segment_documents();
+
+  // Of all contents.
+  std::uint64_t bytes();
+  CacheCounters counters() const;
+
+ private:
+  using Operation = std::function<Status(sqlite::Database&)>;
+
+  explicit TileCache(CacheSettings settings) : settings_(std::move(settings)) {}
+  void run(const Operation& operation);
+  Status run_locked(const Operation& operation);
+
+  const CacheSettings settings_;
+  mutable std::mutex mutex_;  // guards all below
+  std::optional<CacheFile> file_;
+  CacheCounters counters_;
+};
+
+}  // namespace milepost

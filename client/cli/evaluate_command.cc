@@ -1,0 +1,155 @@
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+#include "client/cli/commands.h"
+#include "client/cli/output.h"
+#include "client/cli/replay.h"
+#include "client/cli/report.h"
+#include "client/cli/source_options.h"
+#include "schema/base/file.h"
+
+namespace milepost {
+namespace {
+
+struct EvaluateOptions {
+  SourceOptions map;
+  std::string drive;
+  std::string out;
+  std::vector<std::string> methods = {kDefaultMethod};
+};
+
+Result<std::vector<Method>> methods_named(const std::vector<std::string>& names) {
+  std::vector<Method> methods;
+  for (const std::string& name : names) {
+    Result<Method> method = method_named(name);
+    if (!method) return method.error();
+    methods.push_back(std::move(*method));
+  }
+  return methods;
+}
+
+// The segment that most fixes lie on, for the report's map.
+const Fix* typical_fix(const std::vector<MethodEvaluation>& methods) {
+  std::map<std::string, std::size_t> counts;
+  const Fix* typical = nullptr;
+  std::size_t most = 0;
+  for (const MethodEvaluation& method : methods) {
+    for (const EvaluatedFix& evaluated : method.fixes) {
+      const Fix& fix = evaluated.frame.fix;
+      if (!fix.along_m) continue;
+      const std::size_t count = ++counts[fix.version.map + "/" + fix.segment];
+      if (count > most) {
+        most = count;
+        typical = &fix;
+      }
+    }
+  }
+  return typical;
+}
+
+Result<std::string> report_of(const Drive& drive, const std::string& source_name, MapSource& source,
+                              const std::vector<MethodEvaluation>& methods) {
+  ReportInput input;
+  input.map_source = source_name;
+  input.drive = &drive;
+  input.methods = methods;
+  if (const Fix* fix = typical_fix(methods)) {
+    const Result<SegmentDescription> segment = source.segment(fix->version, fix->segment);
+    if (!segment) return segment.error();
+    input.map_name = fix->version.map + " (build " + fix->version.build + ")";
+    input.segment = fix->segment;
+    input.segment_line = segment->vertices;
+    input.segment_length_m = segment->length_m;
+  }
+  return report_html(input);
+}
+
+// All files of an evaluation, each whole or not there.
+Status write_evaluation(const std::filesystem::path& out,
+                        const std::vector<MethodEvaluation>& methods, const std::string& report) {
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (error)
+    return Error{ErrorCode::io, out.string(), "cannot be made (" + error.message() + ")",
+                 "choose another --out"};
+  for (const MethodEvaluation& evaluation : methods) {
+    const Status written = write_text_file(out / ("fixes-" + evaluation.summary.method + ".csv"),
+                                           evaluated_fixes_csv(evaluation.fixes));
+    if (!written.ok()) return written;
+  }
+  const Status written = write_text_file(out / "report.html", report);
+  if (!written.ok()) return written;
+  return write_text_file(out / "summary.json", summary_json(methods));
+}
+
+Result<Replay> replay_with_progress(const Drive& drive, const std::shared_ptr<MapSource>& source,
+                                    const std::vector<Method>& methods) {
+  ProgressLine progress;
+  return replay_drive(drive, source, methods, [&](std::size_t done) {
+    progress.show("frame " + std::to_string(done) + " of " + std::to_string(drive.frames.size()));
+    return !stop_requested();
+  });
+}
+
+int evaluate(const std::string& program, const EvaluateOptions& options) {
+  const Result<std::vector<Method>> methods = methods_named(options.methods);
+  if (!methods) return fail(program, methods.error());
+  const Result<Drive> drive = read_drive(options.drive);
+  if (!drive) return fail(program, drive.error());
+  const Result<std::shared_ptr<MapSource>> source = open_source(options.map);
+  if (!source) return fail(program, source.error());
+  catch_stop_signals();
+  const Result<Replay> replay = replay_with_progress(*drive, *source, *methods);
+  if (!replay) return fail(program, replay.error());
+
+  std::vector<MethodEvaluation> evaluations;
+  for (std::size_t m = 0; m < methods->size(); ++m) {
+    const Method& method = (*methods)[m];
+    Result<MethodEvaluation> evaluation =
+        evaluate_fixes(method.name, method.layer, *drive, replay->fixes[m], **source);
+    if (!evaluation) return fail(program, evaluation.error());
+    evaluations.push_back(std::move(*evaluation));
+  }
+  const Result<std::string> report = report_of(*drive, options.map.name(), **source, evaluations);
+  if (!report) return fail(program, report.error());
+  const Status written = write_evaluation(options.out, evaluations, *report);
+  if (!written.ok()) return fail(program, written.error());
+  std::cout << summary_table(evaluations);
+  return replay->outage ? fail(program, *replay->outage) : kExitDone;
+}
+
+}  // namespace
+
+int run_evaluate(const std::string& program, std::vector<std::string> words) {
+  CLI::App app(
+      "Localizes every frame of a drive and says how far the fixes are from the recorded "
+      "positions.\n\n"
+      "Writes summary.json, fixes-METHOD.csv and report.html into the output folder.\n"
+      "Example: milepost-client evaluate --map maps/town.map --drive drives/tuesday --out results "
+      "\\\n"
+      "           --method tracklet-regression-kalman milepost",
+      program);
+  EvaluateOptions options;
+  std::string known;
+  for (const std::string& name : method_names()) known += (known.empty() ? "" : ", ") + name;
+  add_source_options(app, options.map);
+  app.add_option("--drive", options.drive, "Folder of the drive to localize")
+      ->required()
+      ->option_text("DIR");
+  app.add_option("--out", options.out, "Folder to write to; made if need be")
+      ->required()
+      ->option_text("DIR");
+  app.add_option("--method", options.methods, "Methods to compare: " + known)
+      ->capture_default_str()
+      ->option_text("M ... [milepost]");
+  if (const auto code = parse_words(app, std::move(words))) return *code;
+  if (options.map.server.empty() && options.map.map.empty()) {
+    std::cerr << program << ": either --server or --map is required; see '" << program
+              << " --help'\n";
+    return kExitWrongCall;
+  }
+  return evaluate(program, options);
+}
+
+}  // namespace milepost

@@ -1,0 +1,154 @@
+#include "client/cli/evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "schema/geo/route_line.h"
+
+namespace milepost {
+namespace {
+
+constexpr double kTruthRadiusM = 50;  // of a frame without a fix, to the nearest segment
+
+struct SegmentName {
+  MapVersion version;
+  std::string id;
+
+  friend bool operator<(const SegmentName& a, const SegmentName& b) {
+    return std::tie(a.version.map, a.version.build, a.id) <
+           std::tie(b.version.map, b.version.build, b.id);
+  }
+};
+
+// The lines of the segments met, each read once.
+class Lines {
+ public:
+  explicit Lines(MapSource& source) : source_(source) {}
+
+  Result<const RouteLine*> of(const SegmentName& name) {
+    const auto known = lines_.find(name);
+    if (known != lines_.end()) return &known->second;
+    const Result<SegmentDescription> segment = source_.segment(name.version, name.id);
+    if (!segment) return segment.error();
+    Result<RouteLine> line = RouteLine::from_vertices(segment->vertices);
+    if (!line) return line.error();
+    return &lines_.emplace(name, std::move(*line)).first->second;
+  }
+
+ private:
+  MapSource& source_;
+  std::map<SegmentName, RouteLine> lines_;
+};
+
+// The segment a frame's truth is told on: its fix's, or the nearest one.
+Result<std::optional<SegmentName>> segment_for_truth(const Fix& fix, const GeoPoint& position,
+                                                     MapSource& source) {
+  if (fix.along_m) return std::optional(SegmentName{fix.version, fix.segment});
+  const auto near = source.segments_near(position, kTruthRadiusM);
+  if (!near) return near.error();
+  if (near->empty()) return std::optional<SegmentName>();
+  return std::optional(SegmentName{near->front().version, near->front().segment});
+}
+
+// The value below which a share of the sorted values lies, interpolated between ranks.
+double quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double rank = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (rank - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double deviation_of(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double sum = 0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+void summarize_errors(const std::vector<EvaluatedFix>& fixes, Summary& summary) {
+  std::vector<double> errors_m;
+  double within = 0;
+  for (const EvaluatedFix& fix : fixes) {
+    if (!fix.error_m) continue;
+    errors_m.push_back(std::abs(*fix.error_m));
+    if (errors_m.back() <= 2 * fix.frame.fix.sigma_m) ++within;
+  }
+  std::sort(errors_m.begin(), errors_m.end());
+  summary.localized_frames = errors_m.size();
+  summary.mean_error_m = mean_of(errors_m);
+  summary.std_error_m = deviation_of(errors_m);
+  summary.max_error_m = quantile(errors_m, 1);
+  summary.p50_error_m = quantile(errors_m, 0.5);
+  summary.p95_error_m = quantile(errors_m, 0.95);
+  summary.within_2_sigma = within / static_cast<double>(errors_m.size());
+}
+
+void summarize_latency(const std::vector<EvaluatedFix>& fixes, Summary& summary) {
+  std::vector<double> latencies_ms;
+  for (const EvaluatedFix& fix : fixes) latencies_ms.push_back(fix.frame.latency_ms);
+  std::sort(latencies_ms.begin(), latencies_ms.end());
+  summary.latency_ms_p50 = quantile(latencies_ms, 0.5);
+  summary.latency_ms_p99 = quantile(latencies_ms, 0.99);
+}
+
+Result<double> map_kb_per_m(const std::set<SegmentName>& driven, const std::string& layer,
+                            Lines& lines, MapSource& source) {
+  double bytes = 0;
+  double length_m = 0;
+  for (const SegmentName& name : driven) {
+    const Result<std::uint64_t> of_segment = source.layer_bytes(name.version, name.id, layer);
+    if (!of_segment) return of_segment.error();
+    const Result<const RouteLine*> line = lines.of(name);
+    if (!line) return line.error();
+    bytes += static_cast<double>(*of_segment);
+    length_m += (*line)->length_m();
+  }
+  return bytes / 1000 / length_m;
+}
+
+}  // namespace
+
+Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::string& layer,
+                                        const Drive& drive, const std::vector<FrameFix>& fixes,
+                                        MapSource& source) {
+  Lines lines(source);
+  std::set<SegmentName> driven;
+  MethodEvaluation evaluation;
+  for (std::size_t i = 0; i < fixes.size(); ++i) {
+    EvaluatedFix evaluated{fixes[i], std::nullopt, std::nullopt};
+    const GeoPoint& position = drive.frames[i].position;
+    const auto name = segment_for_truth(fixes[i].fix, position, source);
+    if (!name) return name.error();
+    if (*name) {
+      const Result<const RouteLine*> line = lines.of(**name);
+      if (!line) return line.error();
+      evaluated.truth_along_m = (*line)->project(position).along_m;
+      if (fixes[i].fix.along_m) {
+        evaluated.error_m = *fixes[i].fix.along_m - *evaluated.truth_along_m;
+        driven.insert(**name);
+      }
+    }
+    evaluation.fixes.push_back(std::move(evaluated));
+  }
+  Summary& summary = evaluation.summary;
+  summary.method = method;
+  summary.frames = fixes.size();
+  summarize_errors(evaluation.fixes, summary);
+  summarize_latency(evaluation.fixes, summary);
+  const Result<double> size = map_kb_per_m(driven, layer, lines, source);
+  if (!size) return size.error();
+  summary.map_kb_per_m = *size;
+  return evaluation;
+}
+
+}  // namespace milepost

@@ -1,0 +1,54 @@
+// How well fixes agree with where the query drive really was.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/fetch/map_source.h"
+#include "client/localize/localizer.h"
+#include "schema/drive/drive.h"
+
+namespace milepost {
+
+// The fix of one frame of a drive, with what it took.
+struct FrameFix {
+  std::string filename;
+  Fix fix;
+  double latency_ms = 0;  // from the decoded image to the fix
+};
+
+struct EvaluatedFix {
+  FrameFix frame;
+  std::optional<double> truth_along_m;  // on the fix's segment, or the nearest one without a fix
+  std::optional<double> error_m;        // along - truth, where the frame has an along
+};
+
+// Errors are absolute values of EvaluatedFix::error_m over the localized frames; NaN without any.
+struct Summary {
+  std::string method;
+  double mean_error_m = 0;
+  double std_error_m = 0;
+  double max_error_m = 0;
+  double p50_error_m = 0;
+  double p95_error_m = 0;
+  std::size_t frames = 0;
+  std::size_t localized_frames = 0;  // with an along
+  double within_2_sigma = 0;         // share of the localized frames, [0, 1]
+  double map_kb_per_m = 0;  // of the method's layers on the segments driven, 1 kB = 1000 bytes
+  double latency_ms_p50 = 0;
+  double latency_ms_p99 = 0;
+};
+
+struct MethodEvaluation {
+  Summary summary;
+  std::vector<EvaluatedFix> fixes;  // one a frame, in order
+};
+
+// Adds the truth: the along of the nearest point of the segment's line to the recorded position.
+// `layer` is the method's. Errors: those of the source.
+Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::string& layer,
+                                        const Drive& drive, const std::vector<FrameFix>& fixes,
+                                        MapSource& source);
+
+}  // namespace milepost

@@ -1,0 +1,69 @@
+#include <iostream>
+
+#include "client/cli/commands.h"
+#include "client/cli/output.h"
+#include "client/cli/replay.h"
+#include "client/cli/source_options.h"
+#include "schema/base/file.h"
+
+namespace milepost {
+namespace {
+
+std::string summary_line(const std::vector<FrameFix>& fixes, const std::string& out) {
+  std::size_t located = 0;
+  for (const FrameFix& frame : fixes) located += frame.fix.along_m ? 1 : 0;
+  return out + ": " + std::to_string(located) + " of " + std::to_string(fixes.size()) +
+         " frames localized";
+}
+
+}  // namespace
+
+int run_localize(const std::string& program, std::vector<std::string> words) {
+  CLI::App app(
+      "Localizes every frame of a drive and writes one fix a frame.\n\n"
+      "The start comes from the drive's gps.csv; recorded positions are not looked at.\n"
+      "Example: milepost-client localize --server http://localhost:8080 --cache cache \\\n"
+      "           --drive drives/tuesday --out fixes.csv",
+      program);
+  SourceOptions map;
+  std::string folder;
+  std::string out;
+  std::string method_name = kDefaultMethod;
+  add_source_options(app, map);
+  app.add_option("--drive", folder, "Folder of the drive to localize")
+      ->required()
+      ->option_text("DIR");
+  app.add_option("--out", out, "File to write the fixes to")->required()->option_text("FILE");
+  app.add_option("--method", method_name, "How to localize")
+      ->capture_default_str()
+      ->option_text("M");
+  if (const auto code = parse_words(app, std::move(words))) return *code;
+  if (map.server.empty() && map.map.empty()) {
+    std::cerr << program << ": either --server or --map is required; see '" << program
+              << " --help'\n";
+    return kExitWrongCall;
+  }
+
+  const Result<Method> method = method_named(method_name);
+  if (!method) return fail(program, method.error());
+  const Result<Drive> drive = read_drive(folder);
+  if (!drive) return fail(program, drive.error());
+  const Result<std::shared_ptr<MapSource>> source = open_source(map);
+  if (!source) return fail(program, source.error());
+  catch_stop_signals();
+  const Result<Replay> replay = [&] {
+    ProgressLine progress;
+    return replay_drive(*drive, *source, {*method}, [&](std::size_t done) {
+      progress.show("frame " + std::to_string(done) + " of " +
+                    std::to_string(drive->frames.size()));
+      return !stop_requested();
+    });
+  }();
+  if (!replay) return fail(program, replay.error());
+  const Status written = write_text_file(out, fixes_csv(replay->fixes.front()));
+  if (!written.ok()) return fail(program, written.error());
+  std::cout << summary_line(replay->fixes.front(), out) << "\n";
+  return replay->outage ? fail(program, *replay->outage) : kExitDone;
+}
+
+}  // namespace milepost

@@ -1,0 +1,20 @@
+// The files that the commands write: fixes and summaries.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/cli/evaluation.h"
+
+namespace milepost {
+
+// fixes.csv of localize: one row a frame. Cells that are not known are empty.
+std::string fixes_csv(const std::vector<FrameFix>& fixes);
+// fixes-METHOD.csv of evaluate: the same with truth_along_m,error_m added.
+std::string evaluated_fixes_csv(const std::vector<EvaluatedFix>& fixes);
+// summary.json: a list, one object a method. Figures that are not known are null.
+std::string summary_json(const std::vector<MethodEvaluation>& methods);
+// The same for a person, as an aligned table.
+std::string summary_table(const std::vector<MethodEvaluation>& methods);
+
+}  // namespace milepost

@@ -1,0 +1,190 @@
+#include "client/cli/report_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "client/cli/plot/text.h"
+
+namespace milepost {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kColours = 7;
+constexpr double kHeadroom = 1.05;        // so that the greatest value is not half outside the plot
+constexpr double kWidestToNarrowest = 8;  // of the methods' error scales in one plot
+
+double finite_or_nan(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? *value : kNaN;
+}
+
+std::vector<double> finite_only(const std::vector<double>& values) {
+  std::vector<double> finite;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
+               [](double value) { return std::isfinite(value); });
+  return finite;
+}
+
+bool on_one_segment(const std::vector<MethodEvaluation>& methods) {
+  std::set<std::pair<std::string, std::string>> segments;  // map and segment
+  for (const MethodEvaluation& method : methods) {
+    for (const EvaluatedFix& fix : method.fixes) {
+      const Fix& each = fix.frame.fix;
+      if (!each.segment.empty()) segments.emplace(each.version.map, each.segment);
+    }
+  }
+  return segments.size() <= 1;
+}
+
+// Metres driven since the first frame. A position that is not valid adds nothing.
+std::vector<double> driven_m(const Drive& drive) {
+  std::vector<double> driven;
+  double sum_m = 0;
+  const GeoPoint* last = nullptr;
+  for (const Frame& frame : drive.frames) {
+    if (is_valid(frame.position)) {
+      if (last != nullptr) sum_m += geodesic_distance_m(*last, frame.position);
+      last = &frame.position;
+    }
+    driven.push_back(sum_m);
+  }
+  return driven;
+}
+
+std::vector<double> truth_alongs(const MethodEvaluation& evaluation) {
+  std::vector<double> alongs;
+  for (const EvaluatedFix& fix : evaluation.fixes) {
+    alongs.push_back(finite_or_nan(fix.truth_along_m));
+  }
+  return alongs;
+}
+
+MethodSeries series_of(const MethodEvaluation& evaluation) {
+  MethodSeries method;
+  method.name = evaluation.summary.method;
+  method.evaluation = &evaluation;
+  for (const EvaluatedFix& fix : evaluation.fixes) {
+    method.error_m.push_back(finite_or_nan(fix.error_m));
+  }
+  method.localized_errors_m = finite_only(method.error_m);
+  std::sort(method.localized_errors_m.begin(), method.localized_errors_m.end());
+  return method;
+}
+
+std::size_t chief_of(const std::vector<MethodEvaluation>& methods) {
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    if (methods[i].summary.method == kDefaultMethod) return i;
+  }
+  return 0;
+}
+
+// The chief has the first colour in every report, the others the next ones in order.
+void give_colours(ReportSeries& series) {
+  std::size_t next = 1;
+  for (std::size_t i = 0; i < series.methods.size(); ++i) {
+    const std::size_t colour = i == series.chief ? 0 : next++;
+    series.methods[i].css_class = "m" + std::to_string(colour % kColours);
+  }
+}
+
+void place_on_route(ReportSeries& series, const ReportInput& input) {
+  const bool by_along = input.drive == nullptr || on_one_segment(input.methods);
+  series.route_label = by_along ? "true position along the segment (m)" : "distance driven (m)";
+  const std::vector<double> driven = by_along ? std::vector<double>{} : driven_m(*input.drive);
+  double from_m = kNaN;
+  double to_m = kNaN;
+  for (MethodSeries& method : series.methods) {
+    method.route_m = by_along ? truth_alongs(*method.evaluation) : driven;
+    method.route_m.resize(method.error_m.size(), kNaN);
+    for (const double at_m : method.route_m) {  // fmin and fmax pass over NaN
+      from_m = std::fmin(from_m, at_m);
+      to_m = std::fmax(to_m, at_m);
+    }
+  }
+  series.route_from_m = from_m;
+  series.route_to_m = to_m;
+}
+
+double error_limit_m(const std::vector<MethodSeries>& methods) {
+  double widest_m = 0;
+  double narrowest_m = std::numeric_limits<double>::infinity();
+  for (const MethodSeries& method : methods) {
+    const double reach_m = robust_reach(method.localized_errors_m);
+    widest_m = std::max(widest_m, reach_m);
+    if (reach_m > 0) narrowest_m = std::min(narrowest_m, reach_m);
+  }
+  const double limit_m = std::min(widest_m, kWidestToNarrowest * narrowest_m);
+  return limit_m > 0 ? limit_m : 0.1;
+}
+
+}  // namespace
+
+std::vector<const MethodSeries*> ReportSeries::back_to_front() const {
+  std::vector<const MethodSeries*> order;
+  for (const MethodSeries& method : methods) {
+    if (&method != &methods[chief]) order.push_back(&method);
+  }
+  if (!methods.empty()) order.push_back(&methods[chief]);
+  return order;
+}
+
+ReportSeries report_series(const ReportInput& input) {
+  ReportSeries series;
+  for (const MethodEvaluation& evaluation : input.methods) {
+    series.methods.push_back(series_of(evaluation));
+  }
+  series.chief = chief_of(input.methods);
+  give_colours(series);
+  place_on_route(series, input);
+  series.error_limit_m = error_limit_m(series.methods);
+  return series;
+}
+
+double quantile(const std::vector<double>& ascending, double share) {
+  if (ascending.empty()) return kNaN;
+  const double place = share * static_cast<double>(ascending.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, ascending.size() - 1);
+  return ascending[below] +
+         (place - static_cast<double>(below)) * (ascending[above] - ascending[below]);
+}
+
+double robust_reach(std::vector<double> magnitudes) {
+  magnitudes = finite_only(magnitudes);
+  if (magnitudes.empty()) return 0;
+  for (double& each : magnitudes) each = std::abs(each);
+  std::sort(magnitudes.begin(), magnitudes.end());
+  const double usual = quantile(magnitudes, 0.9);
+  return kHeadroom * (usual > 0 ? std::min(magnitudes.back(), 2.5 * usual) : magnitudes.back());
+}
+
+std::string metres(double value) {
+  // Decimals follow the number as it is printed: 0.0996 is 0.10.
+  return plot::number(value, std::abs(value) < 0.0995 ? 3 : 2) + "\u00A0m";
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+std::string method_legend(const ReportSeries& series) {
+  std::string html = "<p class=\"legend\">";
+  for (const MethodSeries& method : series.methods) {
+    html += "<span class=\"" + method.css_class + "\"><i></i>" + plot::escaped(method.name) +
+            "</span> ";
+  }
+  return html + "</p>\n";
+}
+
+}  // namespace milepost

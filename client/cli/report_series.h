@@ -1,0 +1,58 @@
+// What the report draws: the numbers of an evaluation, one series a method.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/cli/report.h"
+
+namespace milepost {
+
+struct MethodSeries {
+  std::string name;
+  std::string css_class;  // "m0" to "m6": its colour
+  const MethodEvaluation* evaluation = nullptr;
+  // One a fix; NaN where unknown.
+  std::vector<double> route_m;             // where on the route
+  std::vector<double> error_m;             // signed
+  std::vector<double> localized_errors_m;  // the known ones of error_m, ascending
+};
+
+struct ReportSeries {
+  std::vector<MethodSeries> methods;  // in the order of the input
+  std::size_t chief = 0;              // the default method, or else the first
+  std::string route_label;            // what route_m is, with its unit
+  double route_from_m = 0;
+  double route_to_m = 0;
+  // Errors up to this much are drawn to scale, in either direction; some of a method's may be
+  // beyond.
+  double error_limit_m = 0;
+
+  // REQUIRES: there is a method.
+  const MethodSeries& chief_method() const { return methods[chief]; }
+  // Order of drawing: the chief last, on top.
+  std::vector<const MethodSeries*> back_to_front() const;
+};
+
+ReportSeries report_series(const ReportInput& input);
+
+// The value below which that share of `ascending` lies, between neighbours in proportion.
+// NaN without values.
+double quantile(const std::vector<double>& ascending, double share);
+
+// How far a scale must reach for values that are no outliers: the greatest, but at most 2.5 times
+// the 90th percentile, which is four sigmas of a normal distribution; and a little headroom. 0
+// without a finite value.
+double robust_reach(std::vector<double> magnitudes);
+
+// "0.063 m", "0.21 m", "1.30 m": two digits that matter.
+std::string metres(double value);
+// "1 frame", "2 frames".
+std::string counted(std::size_t count, const std::string& noun);
+// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& words);
+
+// One coloured name a method, as HTML.
+std::string method_legend(const ReportSeries& series);
+
+}  // namespace milepost

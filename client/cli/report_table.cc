@@ -1,0 +1,112 @@
+#include "client/cli/report_table.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "client/cli/plot/text.h"
+
+namespace milepost {
+namespace {
+
+using plot::escaped;
+using plot::number;
+
+constexpr double kWithin2SigmaOfNormal = 0.9545;
+
+struct Column {
+  const char* heading;
+  const char* unit;
+  std::string (*text)(const Summary&);
+  // The smaller, the better; NaN takes no part.
+  double (*badness)(const Summary&);
+};
+
+double localized_share(const Summary& summary) {
+  return summary.frames > 0
+             ? static_cast<double>(summary.localized_frames) / static_cast<double>(summary.frames)
+             : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string localized_text(const Summary& summary) {
+  return std::to_string(summary.localized_frames) + "/" + std::to_string(summary.frames);
+}
+
+double within_share(const Summary& summary) {
+  return summary.localized_frames > 0 ? summary.within_2_sigma
+                                      : std::numeric_limits<double>::quiet_NaN();
+}
+
+using S = Summary;
+const std::array<Column, 10>& columns() {
+  static const std::array<Column, 10> all = {{
+      {"mean", "m", [](const S& s) { return number(s.mean_error_m, 3); },
+       [](const S& s) { return s.mean_error_m; }},
+      {"std", "m", [](const S& s) { return number(s.std_error_m, 3); },
+       [](const S& s) { return s.std_error_m; }},
+      {"max", "m", [](const S& s) { return number(s.max_error_m, 3); },
+       [](const S& s) { return s.max_error_m; }},
+      {"p50", "m", [](const S& s) { return number(s.p50_error_m, 3); },
+       [](const S& s) { return s.p50_error_m; }},
+      {"p95", "m", [](const S& s) { return number(s.p95_error_m, 3); },
+       [](const S& s) { return s.p95_error_m; }},
+      {"localized", "", localized_text, [](const S& s) { return -localized_share(s); }},
+      {"within 2\u03C3", "%", [](const S& s) { return number(100 * within_share(s), 1); },
+       [](const S& s) { return std::abs(within_share(s) - kWithin2SigmaOfNormal); }},
+      {"map", "kB/m", [](const S& s) { return number(s.map_kb_per_m, 2); },
+       [](const S& s) { return s.map_kb_per_m; }},
+      {"latency p50", "ms", [](const S& s) { return number(s.latency_ms_p50, 1); },
+       [](const S& s) { return s.latency_ms_p50; }},
+      {"latency p99", "ms", [](const S& s) { return number(s.latency_ms_p99, 1); },
+       [](const S& s) { return s.latency_ms_p99; }},
+  }};
+  return all;
+}
+
+// What the best cell of the column says. Methods that say the same share the mark: a difference
+// that is not printed is none.
+std::optional<std::string> best_text(const Column& column,
+                                     const std::vector<MethodEvaluation>& methods) {
+  const Summary* best = nullptr;
+  for (const MethodEvaluation& method : methods) {
+    const double badness = column.badness(method.summary);
+    if (std::isfinite(badness) && (best == nullptr || badness < column.badness(*best))) {
+      best = &method.summary;
+    }
+  }
+  if (best == nullptr || methods.size() < 2) return std::nullopt;
+  return column.text(*best);
+}
+
+std::string head() {
+  std::string html = "<thead><tr><th scope=\"col\">method</th>";
+  for (const Column& column : columns()) {
+    html += std::string("<th scope=\"col\">") + column.heading + " <small>" + column.unit +
+            "</small></th>";
+  }
+  return html + "</tr></thead>\n";
+}
+
+std::string row(const Summary& summary, const std::vector<std::optional<std::string>>& best) {
+  std::string html = "<tr><th scope=\"row\">" + escaped(summary.method) + "</th>";
+  for (std::size_t i = 0; i < columns().size(); ++i) {
+    const Column& column = columns().at(i);
+    const std::string text = column.text(summary);
+    html += std::string("<td data-label=\"") + column.heading + "\" data-unit=\"" + column.unit +
+            "\">" + (best[i] == text ? "<strong>" + text + "</strong>" : text) + "</td>";
+  }
+  return html + "</tr>\n";
+}
+
+}  // namespace
+
+std::string summary_table(const std::vector<MethodEvaluation>& methods) {
+  std::vector<std::optional<std::string>> best;
+  for (const Column& column : columns()) best.push_back(best_text(column, methods));
+  std::string html = "<table>\n" + head() + "<tbody>\n";
+  for (const MethodEvaluation& method : methods) html += row(method.summary, best);
+  return html + "</tbody>\n</table>\n";
+}
+
+}  // namespace milepost

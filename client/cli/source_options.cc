@@ -1,0 +1,43 @@
+#include "client/cli/source_options.h"
+
+#include "client/fetch/file_source.h"
+#include "client/fetch/http_source.h"
+
+namespace milepost {
+
+void add_source_options(CLI::App& app, SourceOptions& options) {
+  CLI::Option_group* group =
+      app.add_option_group("Map", "Where the map comes from: a server, or a file");
+  CLI::Option* server =
+      group->add_option("--server", options.server, "Tile server to fetch from, http://HOST:PORT")
+          ->option_text("URL");
+  CLI::Option* cache =
+      group->add_option("--cache", options.cache, "Folder that keeps fetched tiles")
+          ->option_text("DIR");
+  CLI::Option* limit =
+      group
+          ->add_option("--cache-limit-mb", options.cache_limit_mb,
+                       "Megabytes kept in the cache; the least recently used go first")
+          ->check(CLI::Range(1.0, 1e6))
+          ->capture_default_str();
+  CLI::Option* map = group->add_option("--map", options.map, "Map file to read instead of a server")
+                         ->option_text("FILE");
+  server->needs(cache)->excludes(map);
+  cache->needs(server);
+  limit->needs(server);
+}
+
+Result<std::shared_ptr<MapSource>> open_source(const SourceOptions& options) {
+  Result<std::unique_ptr<MapSource>> source = [&] {
+    if (!options.map.empty()) return open_file_source(options.map);
+    HttpSourceSettings settings;
+    settings.server_url = options.server;
+    settings.cache_directory = options.cache;
+    settings.cache_limit_bytes = static_cast<std::uint64_t>(options.cache_limit_mb * 1e6);
+    return open_http_source(settings);
+  }();
+  if (!source) return source.error();
+  return std::shared_ptr<MapSource>(std::move(*source));
+}
+
+}  // namespace milepost

@@ -1,0 +1,27 @@
+// Where a command gets its map from: --server URL --cache DIR, or --map FILE.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "client/fetch/map_source.h"
+#include "schema/command/command.h"
+
+namespace milepost {
+
+struct SourceOptions {
+  std::string server;
+  std::string cache;
+  std::string map;
+  double cache_limit_mb = 1024;
+
+  std::string name() const { return map.empty() ? server : map; }
+};
+
+// Adds the options, and that either a server with its cache or a map file is required.
+void add_source_options(CLI::App& app, SourceOptions& options);
+
+// Errors: those of open_http_source and open_file_source.
+Result<std::shared_ptr<MapSource>> open_source(const SourceOptions& options);
+
+}  // namespace milepost

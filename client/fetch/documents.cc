@@ -1,0 +1,161 @@
+#include "client/fetch/documents.h"
+
+#include <limits>
+#include <utility>
+
+#include "client/fetch/json_fields.h"
+#include "schema/base/digest.h"
+#include "schema/base/ids.h"
+
+namespace milepost {
+namespace {
+
+constexpr double kMaxAlong_m = 1e8;  // beyond twice around the Earth
+constexpr double kMaxAltitude_m = 1e5;
+constexpr std::uint64_t kMaxTileBytes = 256ULL << 20U;
+
+std::string segment_id(JsonFields& fields, const Json& object, const char* key) {
+  std::string id = fields.text(object, key);
+  if (fields.ok() && !is_segment_id(id)) fields.fail("\"" + id + "\" is no segment's id");
+  return id;
+}
+
+MapVersion version_of(JsonFields& fields, const Json& json, const char* name_key) {
+  MapVersion version{fields.text(json, name_key), fields.text(json, "build")};
+  if (fields.ok() && !is_digest(version.build)) fields.fail("\"build\" is no digest");
+  return version;
+}
+
+GeoPoint vertex_of(JsonFields& fields, const Json& point) {
+  return {fields.number_at(point, 0, -90, 90), fields.number_at(point, 1, -180, 180),
+          fields.number_at(point, 2, -kMaxAltitude_m, kMaxAltitude_m)};
+}
+
+std::vector<std::string> successors_of(JsonFields& fields, const Json& json) {
+  std::vector<std::string> successors;
+  for (const Json& id : fields.array(json, "successors")) {
+    const bool valid = id.is_string() && is_segment_id(id.get_ref<const std::string&>());
+    if (!valid) fields.fail("a successor is no segment's id");
+    if (valid) successors.push_back(id.get<std::string>());
+  }
+  return successors;
+}
+
+TileEntry tile_entry_of(JsonFields& fields, const Json& json) {
+  TileEntry entry;
+  entry.index = static_cast<std::uint32_t>(
+      fields.whole(json, "index", std::numeric_limits<std::uint32_t>::max()));
+  entry.along.from_m = fields.number(json, "from_m", -kMaxAlong_m, kMaxAlong_m);
+  entry.along.to_m = fields.number(json, "to_m", entry.along.from_m, kMaxAlong_m);
+  entry.items = fields.whole(json, "items", std::numeric_limits<std::uint64_t>::max());
+  entry.bytes = fields.whole(json, "bytes", kMaxTileBytes);
+  entry.digest = fields.text(json, "digest");
+  if (fields.ok() && entry.bytes == 0) fields.fail("a tile without bytes");
+  if (fields.ok() && !is_digest(entry.digest)) fields.fail("\"digest\" is no digest");
+  return entry;
+}
+
+std::vector<TileEntry> tile_index_of(JsonFields& fields, const Json& list) {
+  std::vector<TileEntry> index;
+  if (!list.is_array()) fields.fail("a layer's tiles are no list");
+  for (const Json& json : list) {
+    TileEntry entry = tile_entry_of(fields, json);
+    if (!index.empty() && entry.index <= index.back().index) {
+      fields.fail("the tiles of a layer are not ascending");
+    }
+    if (!fields.ok()) return {};
+    index.push_back(std::move(entry));
+  }
+  return index;
+}
+
+void check_is_about(JsonFields& fields, const std::string& asked, const std::string& told) {
+  if (fields.ok() && asked != told) {
+    fields.fail("the document is about \"" + told + "\", asked for was \"" + asked + "\"");
+  }
+}
+
+NearbySegment nearby_of(JsonFields& fields, const Json& json) {
+  NearbySegment near;
+  near.version = version_of(fields, json, "map");
+  near.segment = segment_id(fields, json, "segment");
+  near.length_m = fields.number(json, "length_m", 0, kMaxAlong_m);
+  near.along_m = fields.number(json, "along_m", 0, kMaxAlong_m);
+  near.distance_m = fields.number(json, "distance_m", 0, kMaxAlong_m);
+  return near;
+}
+
+}  // namespace
+
+Result<std::vector<NearbySegment>> parse_nearby_document(std::string_view text,
+                                                         const std::string& where) {
+  JsonFields fields(where);
+  const Json json = fields.parsed(text);
+  std::vector<NearbySegment> segments;
+  for (const Json& entry : fields.array(json, "segments")) {
+    segments.push_back(nearby_of(fields, entry));
+  }
+  if (!fields.ok()) return fields.error();
+  return segments;
+}
+
+Result<MapDescription> parse_map_document(std::string_view text, const std::string& where,
+                                          const std::string& map) {
+  JsonFields fields(where);
+  const Json json = fields.parsed(text);
+  MapDescription description;
+  description.version = version_of(fields, json, "name");
+  check_is_about(fields, map, description.version.map);
+  const Json& parameters = fields.object(json, "layer_parameters");
+  for (const Json& layer : fields.array(json, "layers")) {
+    if (!layer.is_string() || !is_layer_name(layer.get_ref<const std::string&>())) {
+      fields.fail("\"layers\" has a member that is no layer's name");
+      break;
+    }
+    const std::string name = layer.get<std::string>();
+    description.layers[name] = fields.object(parameters, name.c_str()).dump();
+  }
+  description.feature_json = fields.object(json, "feature").dump();
+  if (!fields.ok()) return fields.error();
+  return description;
+}
+
+Result<SegmentDocument> parse_segment_document(std::string_view text, const std::string& where,
+                                               const MapVersion& version,
+                                               const std::string& segment) {
+  JsonFields fields(where);
+  const Json json = fields.parsed(text);
+  check_is_about(fields, version.map, fields.text(json, "map"));
+  check_is_about(fields, version.build, fields.text(json, "build"));
+  check_is_about(fields, segment, fields.text(json, "segment"));
+  SegmentDocument document;
+  document.description.id = segment;
+  document.description.length_m = fields.number(json, "length_m", 0, kMaxAlong_m);
+  for (const Json& point : fields.array(json, "line")) {
+    document.description.vertices.push_back(vertex_of(fields, point));
+  }
+  document.description.successors = successors_of(fields, json);
+  for (const auto& [layer, tiles] : fields.object(json, "tiles").items()) {
+    if (!is_layer_name(layer)) fields.fail("\"tiles\" has a member that is no layer's name");
+    document.tiles[layer] = tile_index_of(fields, tiles);
+  }
+  if (!fields.ok()) return fields.error();
+  return document;
+}
+
+std::vector<TileEntry> entries_meeting(const std::vector<TileEntry>& index,
+                                       const AlongRange& range) {
+  std::vector<TileEntry> meeting;
+  for (const TileEntry& entry : index) {
+    if (entry.along.meets(range)) meeting.push_back(entry);
+  }
+  return meeting;
+}
+
+std::uint64_t bytes_of(const std::vector<TileEntry>& index) {
+  std::uint64_t bytes = 0;
+  for (const TileEntry& entry : index) bytes += entry.bytes;
+  return bytes;
+}
+
+}  // namespace milepost

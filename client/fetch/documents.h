@@ -1,0 +1,38 @@
+// The server's JSON documents (PROTOCOL.md) as values. Never trusts a field.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client/fetch/map_source.h"
+#include "schema/base/result.h"
+#include "schema/store/map_store.h"
+
+namespace milepost {
+
+// A segment, and which tiles it has: the index of each layer, ascending.
+struct SegmentDocument {
+  SegmentDescription description;
+  std::map<std::string, std::vector<TileEntry>> tiles;
+};
+
+// `where` (the document's URL) goes into errors. Errors of all: corrupt, also for a document that
+// is about something else than what was asked for.
+Result<std::vector<NearbySegment>> parse_nearby_document(std::string_view text,
+                                                         const std::string& where);
+Result<MapDescription> parse_map_document(std::string_view text, const std::string& where,
+                                          const std::string& map);
+Result<SegmentDocument> parse_segment_document(std::string_view text, const std::string& where,
+                                               const MapVersion& version,
+                                               const std::string& segment);
+
+// The entries whose along range meets `range`.
+std::vector<TileEntry> entries_meeting(const std::vector<TileEntry>& index,
+                                       const AlongRange& range);
+
+// Of all tiles of the index.
+std::uint64_t bytes_of(const std::vector<TileEntry>& index);
+
+}  // namespace milepost

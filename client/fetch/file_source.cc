@@ -1,0 +1,121 @@
+#include "client/fetch/file_source.h"
+
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "client/fetch/documents.h"
+#include "client/fetch/nearby.h"
+#include "schema/store/map_store.h"
+
+namespace milepost {
+namespace {
+
+SegmentDescription description_of(const StoredSegment& stored) {
+  SegmentDescription description{stored.id, stored.length_m, {}, stored.successors};
+  for (const StoredVertex& vertex : stored.vertices) {
+    description.vertices.push_back({vertex.latitude_deg, vertex.longitude_deg, vertex.altitude_m});
+  }
+  return description;
+}
+
+class FileSource : public MapSource {
+ public:
+  explicit FileSource(MapReader reader)
+      : reader_(std::move(reader)), version_{reader_.file().stem().string(), reader_.build()} {}
+
+  Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
+                                                   double radius_m) override {
+    const std::lock_guard lock(mutex_);
+    Status ready = check_near_query(position, radius_m);
+    if (ready.ok()) ready = load_lines();
+    if (!ready.ok()) return ready.error();
+    return lines_near(*lines_, position, radius_m);
+  }
+
+  Result<MapDescription> describe(const MapVersion& version) override {
+    const std::lock_guard lock(mutex_);
+    const Status checked = check(version);
+    if (!checked.ok()) return checked.error();
+    return MapDescription{version_, reader_.layers(), reader_.feature_json()};
+  }
+
+  Result<SegmentDescription> segment(const MapVersion& version,
+                                     const std::string& segment) override {
+    const std::lock_guard lock(mutex_);
+    const Status checked = check(version);
+    if (!checked.ok()) return checked.error();
+    const Result<StoredSegment> stored = reader_.segment(segment);
+    if (!stored.ok()) return stored.error();
+    return description_of(*stored);
+  }
+
+  Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
+                                       const std::string& layer, const AlongRange& range) override {
+    const std::lock_guard lock(mutex_);
+    const Status checked = check(version);
+    if (!checked.ok()) return checked.error();
+    const auto entries = reader_.tiles_in(segment, layer, range);
+    if (!entries.ok()) return entries.error();
+    std::vector<TileFrame> frames;
+    for (const TileEntry& entry : *entries) {
+      Result<Bytes> frame = reader_.tile(segment, layer, entry.index);
+      if (!frame.ok()) return frame.error();
+      frames.push_back({entry.index, std::move(frame).value()});
+    }
+    return frames;
+  }
+
+  Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
+                                    const std::string& layer) override {
+    const std::lock_guard lock(mutex_);
+    const Status checked = check(version);
+    if (!checked.ok()) return checked.error();
+    const auto index = reader_.tile_index(segment, layer);
+    if (!index.ok()) return index.error();
+    return bytes_of(*index);
+  }
+
+  SourceCounters counters() const override { return {}; }
+
+ private:
+  Status check(const MapVersion& version) const {
+    if (version == version_) return ok_status();
+    const std::string file = reader_.file().string();
+    if (version.map != version_.map) {
+      return Error{ErrorCode::not_found, file, "this is not the map \"" + version.map + "\"", ""};
+    }
+    return Error{ErrorCode::gone, file,
+                 "the map was rebuilt: build " + version.build + " is gone, the current one is " +
+                     version_.build,
+                 "ask for the map's current build"};
+  }
+
+  // Once; the file never changes under an open reader.
+  Status load_lines() {
+    if (lines_.has_value()) return ok_status();
+    std::vector<KnownLine> lines;
+    for (const std::string& id : reader_.segment_ids()) {
+      const Result<StoredSegment> stored = reader_.segment(id);
+      if (!stored.ok()) return stored.error();
+      add_line(version_, description_of(*stored), lines);
+    }
+    lines_ = std::move(lines);
+    return ok_status();
+  }
+
+  std::mutex mutex_;  // guards the reader and what is read
+  MapReader reader_;
+  const MapVersion version_;
+  std::optional<std::vector<KnownLine>> lines_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<MapSource>> open_file_source(const std::filesystem::path& map_file) {
+  Result<MapReader> reader = MapReader::open(map_file);
+  if (!reader.ok()) return reader.error();
+  return std::unique_ptr<MapSource>(std::make_unique<FileSource>(std::move(reader).value()));
+}
+
+}  // namespace milepost

@@ -1,0 +1,49 @@
+#include "client/fetch/frame_cutter.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "schema/base/digest.h"
+
+namespace milepost {
+
+FrameCutter::FrameCutter(std::string where, std::vector<TileEntry> expected, Receiver receive)
+    : where_(std::move(where)), expected_(std::move(expected)), receive_(std::move(receive)) {}
+
+Status FrameCutter::take(ByteView piece) {
+  while (!piece.empty()) {
+    if (received_ == expected_.size()) return wrong("bytes follow the last tile of the range");
+    const std::size_t lacking = expected_[received_].bytes - begun_.size();
+    const ByteView part = piece.first(std::min(lacking, piece.size()));
+    begun_.insert(begun_.end(), part.begin(), part.end());
+    piece = piece.subspan(part.size());
+    if (part.size() < lacking) continue;
+    Status completed = complete_tile();
+    if (!completed.ok()) return completed;
+  }
+  return ok_status();
+}
+
+Status FrameCutter::complete_tile() {
+  const TileEntry& entry = expected_[received_];
+  if (digest_of(begun_) != entry.digest) {
+    return wrong("the bytes of tile " + std::to_string(entry.index) +
+                 " do not have the digest that the segment's index gives");
+  }
+  ++received_;
+  receive_(entry, std::exchange(begun_, {}));
+  return ok_status();
+}
+
+Status FrameCutter::finish() const {
+  if (received_ == expected_.size()) return ok_status();
+  return wrong("the answer ends before the end of tile " +
+               std::to_string(expected_[received_].index));
+}
+
+Error FrameCutter::wrong(const std::string& what) const {
+  return {ErrorCode::corrupt, where_, what,
+          "verify the server's map and check what lies between here and the server"};
+}
+
+}  // namespace milepost

@@ -1,0 +1,85 @@
+// Where the client gets its map from: a server, with a cache in between, or a map file.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "schema/base/bytes.h"
+#include "schema/base/range.h"
+#include "schema/base/result.h"
+#include "schema/geo/geodesy.h"
+
+namespace milepost {
+
+// One build of one map. Everything read under it is immutable.
+struct MapVersion {
+  std::string map;
+  std::string build;
+
+  friend bool operator==(const MapVersion&, const MapVersion&) = default;
+};
+
+struct MapDescription {
+  MapVersion version;
+  std::map<std::string, std::string> layers;  // name -> parameters, a JSON object
+  std::string feature_json;                   // feature parameters, a JSON object
+};
+
+// A segment that passes near a position.
+struct NearbySegment {
+  MapVersion version;
+  std::string segment;
+  double along_m = 0;     // of the nearest point of its line
+  double distance_m = 0;  // from the position to that point
+  double length_m = 0;
+};
+
+struct SegmentDescription {
+  std::string id;
+  double length_m = 0;
+  std::vector<GeoPoint> vertices;
+  std::vector<std::string> successors;
+};
+
+// The stored frame of one tile: opaque here, decoded by schema/tile.
+struct TileFrame {
+  std::uint32_t index = 0;
+  Bytes frame;
+};
+
+// Counts since the source was made: what a run cost in transport.
+struct SourceCounters {
+  std::uint64_t requests = 0;        // HTTP requests sent
+  std::uint64_t bytes_received = 0;  // bodies, over HTTP
+  std::uint64_t tiles_from_cache = 0;
+  std::uint64_t tiles_fetched = 0;
+  std::uint64_t cache_failures = 0;  // what the cache could not read or store (a full disk, say)
+};
+
+// Safe to use from several threads at once (the prefetcher uses it beside the localizer).
+class MapSource {
+ public:
+  virtual ~MapSource() = default;
+
+  // The segments within `radius_m` of a position over the whole catalog, nearest first.
+  // An empty list is an answer. Errors: unavailable, corrupt, io.
+  virtual Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
+                                                           double radius_m) = 0;
+  // Errors of all below: not_found, gone (the build was replaced), unavailable, corrupt, io.
+  virtual Result<MapDescription> describe(const MapVersion& version) = 0;
+  virtual Result<SegmentDescription> segment(const MapVersion& version,
+                                             const std::string& segment) = 0;
+  // The tiles of a layer with an item whose along range meets `range`, ascending by index.
+  // Waits for what is not cached yet.
+  virtual Result<std::vector<TileFrame>> tiles(const MapVersion& version,
+                                               const std::string& segment, const std::string& layer,
+                                               const AlongRange& range) = 0;
+  // Bytes of all tiles of the layer on that segment: what a vehicle must hold for it.
+  virtual Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
+                                            const std::string& layer) = 0;
+  virtual SourceCounters counters() const = 0;
+};
+
+}  // namespace milepost

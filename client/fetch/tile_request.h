@@ -1,0 +1,24 @@
+// Which one request brings missing tiles with as little besides as possible.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "schema/base/range.h"
+#include "schema/store/map_store.h"
+
+namespace milepost {
+
+struct TileRequest {
+  std::optional<AlongRange> range;  // none: the one tile by its own URL
+  std::vector<TileEntry> expected;  // what the answer must consist of, in this order
+};
+
+// The request for the first run of missing tiles that stand side by side in `index`.
+// REQUIRES: `missing` (tile indices) is not empty and all in `index`, which is ascending.
+TileRequest request_for_first_run(const std::vector<TileEntry>& index,
+                                  const std::set<std::uint32_t>& missing);
+
+}  // namespace milepost

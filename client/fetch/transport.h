@@ -1,0 +1,53 @@
+// HTTP GET: the one thing the client asks of the network.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "schema/base/bytes.h"
+#include "schema/base/result.h"
+
+namespace milepost {
+
+// Takes the body of a successful answer piece by piece. An error ends the request with that error.
+using BodySink = std::function<Status(ByteView piece)>;
+
+// How a request ended.
+struct HttpAnswer {
+  // ok: status 200, and the whole body went to the sink. Otherwise the error names the URL:
+  // not_found (404), gone (410), invalid_input (400, other refusals, a URL that is none), corrupt
+  // (no HTTP, or a body beyond the limit), unavailable (no connection, a timeout, a body that
+  // breaks off, 429, 5xx), or what the sink returned.
+  Status status;
+  double retry_after_s = 0;      // what a busy server asked for; 0 if it asked for nothing
+  std::uint64_t body_bytes = 0;  // received, also of an answer that broke off
+};
+
+// All members are safe to call from several threads at once.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  // Makes one request. `body_limit_bytes` bounds what the sink may be given.
+  virtual HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes,
+                         const BodySink& sink) = 0;
+};
+
+struct TransportSettings {
+  double connect_timeout_s = 5;
+  double stall_timeout_s = 10;  // rounded up to whole seconds
+};
+
+// libcurl: keeps connections open between requests, one handle a request under way; follows up to
+// five redirects, http and https only; takes proxies from the environment as curl does.
+std::unique_ptr<Transport> make_curl_transport(const TransportSettings& settings);
+
+// `base` (http or https, a host, perhaps a path) without slashes at its end.
+// Errors: invalid_input.
+Result<std::string> checked_server_url(const std::string& base);
+
+// One segment of a URL's path, with everything escaped that is not plain.
+std::string escaped_for_url(const std::string& text);
+
+}  // namespace milepost

@@ -1,0 +1,111 @@
+#include "client/localize/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace milepost {
+namespace {
+
+// Tukey's biweight: 1 at 0, falling to 0 at 1 and beyond.
+double biweight(double u) {
+  const double inside = std::max(0.0, 1 - u * u);
+  return inside * inside;
+}
+
+// Where the estimates, each as certain as its own sigma, are densest.
+double densest_along_m(const std::vector<PositionEstimate>& estimates, double width_m) {
+  double densest_m = estimates.front().along_m;
+  double highest = -1;
+  for (const PositionEstimate& centre : estimates) {
+    double votes = 0;
+    for (const PositionEstimate& estimate : estimates) {
+      const double off = (estimate.along_m - centre.along_m) / width_m;
+      votes += biweight(off) / std::hypot(estimate.sigma_m, width_m);
+    }
+    if (votes > highest) {
+      highest = votes;
+      densest_m = centre.along_m;
+    }
+  }
+  return densest_m;
+}
+
+// A weighted mean of the estimates that are trusted at a position.
+struct TrustedMean {
+  double along_m = 0;
+  double weight = 0;      // sum of the weights, 1/m^2
+  double square_m2 = 0;   // weighted mean of squared deviations from along_m
+  double chi_square = 0;  // trusted mean of squared deviations in units of the estimates' sigmas
+  int support = 0;        // estimates trusted at all
+};
+
+double trust_in(const PositionEstimate& estimate, double along_m, double cutoff) {
+  return biweight((estimate.along_m - along_m) / (cutoff * estimate.sigma_m));
+}
+
+double weight_of(const PositionEstimate& estimate) {
+  return 1 / (estimate.sigma_m * estimate.sigma_m);
+}
+
+TrustedMean trusted_mean_about(const std::vector<PositionEstimate>& estimates, double along_m,
+                               double cutoff) {
+  TrustedMean mean;
+  double sum = 0;
+  double trusts = 0;
+  for (const PositionEstimate& estimate : estimates) {
+    const double trust = trust_in(estimate, along_m, cutoff);
+    if (trust <= 0) continue;
+    sum += trust * weight_of(estimate) * estimate.along_m;
+    mean.weight += trust * weight_of(estimate);
+    trusts += trust;
+    ++mean.support;
+  }
+  if (mean.support == 0) return mean;
+  mean.along_m = sum / mean.weight;
+  for (const PositionEstimate& estimate : estimates) {
+    const double off_m = estimate.along_m - mean.along_m;
+    const double weighed =
+        trust_in(estimate, along_m, cutoff) * weight_of(estimate) * off_m * off_m;
+    mean.square_m2 += weighed / mean.weight;
+    mean.chi_square += weighed / trusts;
+  }
+  return mean;
+}
+
+}  // namespace
+
+std::optional<Measurement> combine_by_mean(const std::vector<PositionEstimate>& estimates,
+                                           double min_sigma_m) {
+  if (estimates.empty()) return std::nullopt;
+  const auto count = static_cast<double>(estimates.size());
+  double mean_m = 0;  // Eq. 4
+  for (const PositionEstimate& estimate : estimates) mean_m += estimate.along_m / count;
+  double variance = 0;  // Eq. 5
+  for (const PositionEstimate& estimate : estimates) {
+    variance += (estimate.along_m - mean_m) * (estimate.along_m - mean_m) / count;
+  }
+  return Measurement{mean_m, std::max(std::sqrt(variance), min_sigma_m),
+                     static_cast<int>(estimates.size())};
+}
+
+std::optional<Measurement> combine_robustly(const std::vector<PositionEstimate>& estimates,
+                                            const RobustSettings& settings) {
+  if (static_cast<int>(estimates.size()) < settings.min_support) return std::nullopt;
+  double along_m = densest_along_m(estimates, settings.vote_width_m);
+  TrustedMean mean;
+  for (int i = 0; i < settings.max_iterations; ++i) {
+    mean = trusted_mean_about(estimates, along_m, settings.cutoff);
+    if (mean.support < settings.min_support) return std::nullopt;
+    const double moved_m = std::abs(mean.along_m - along_m);
+    along_m = mean.along_m;
+    if (moved_m < 1e-4) break;
+  }
+  // How far the estimates that count really spread, against what their sigmas promise.
+  const double inflation = std::max(1.0, std::sqrt(mean.chi_square));
+  const double own_sigma_m = inflation / std::sqrt(mean.weight);
+  const double shared_sigma_m = settings.shared_part * std::sqrt(mean.square_m2);
+  return Measurement{along_m, std::hypot(own_sigma_m, shared_sigma_m), mean.support,
+                     shared_sigma_m};
+}
+
+}  // namespace milepost

@@ -1,0 +1,99 @@
+// The localizer: frames and coarse positions in, fixes out.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/fetch/map_source.h"
+#include "client/fetch/prefetcher.h"
+#include "client/localize/method.h"
+#include "schema/feature/types.h"
+#include "schema/geo/route_line.h"
+
+namespace milepost {
+
+enum class FixStatus {
+  initializing,  // near a segment, not yet sure where on it
+  tracking,      // this frame was measured against the map
+  predicted,     // this frame gave no measurement; the motion model carries on
+  lost,          // too many frames without a measurement; looking again around the last fix or GPS
+  off_map,       // no segment of the catalog is near
+};
+
+const char* name_of(FixStatus status);
+
+// The answer for one frame.
+struct Fix {
+  double timestamp_s = 0;
+  FixStatus status = FixStatus::initializing;
+  MapVersion version;                // empty unless a segment is known
+  std::string segment;               // empty unless known
+  std::optional<double> along_m;     // [0, length of the segment]
+  double sigma_m = 0;                // one standard deviation, with along_m
+  std::optional<GeoPoint> position;  // of along_m on the segment's line
+  int matches = 0;                   // tracklets that agreed on the measurement
+};
+
+// A coarse position, of a receiver of satellite signals.
+struct CoarsePosition {
+  double timestamp_s = 0;
+  GeoPoint position;
+  double sigma_m = 0;  // one standard deviation, in each direction
+};
+
+// One frame of the query camera. Its features are asked for once the map, and with it the
+// parameters of the extractor, is known; the reference is used during localize() only.
+struct QueryFrame {
+  double timestamp_s = 0;
+  std::function<const FeatureSet&(const FeatureParameters&)> features;
+};
+
+struct QueryCamera {
+  int width_px = 0;
+  double focal_x_px = 0;
+  double focal_y_px = 0;
+};
+
+struct LocalizerSettings {
+  Method method;
+  double start_radius_m = 30;    // segments farther from the coarse position are not looked at
+  double start_sigmas = 3;       // of the coarse position, searched along the segment
+  double start_reach_m = 5;      // ... and so much more
+  int min_start_support = 6;     // tracklets that must agree before a start is believed
+  double max_coarse_age_s = 3;   // older positions start nothing
+  int max_predicted_frames = 8;  // frames without measurement before the vehicle counts as lost
+  double prefetch_m = 300;       // fetched ahead in the background; 0 turns it off
+  WindowSettings window;
+};
+
+// Not safe to use from several threads at once. Fixes depend on frames, positions and map only:
+// what is missing is waited for, so the prefetcher changes times, not results.
+class Localizer {
+ public:
+  Localizer(std::shared_ptr<MapSource> source, const QueryCamera& camera,
+            const LocalizerSettings& settings);
+  ~Localizer();
+  Localizer(Localizer&&) noexcept;
+  Localizer& operator=(Localizer&&) noexcept;
+
+  // What the receiver says; of several the latest counts.
+  void observe(const CoarsePosition& position);
+
+  // The fix of the next frame. REQUIRES: timestamps ascend strictly.
+  // Errors: what the map source says when there is nothing to go on with (unavailable, corrupt,
+  // ...), and invalid_input where the map lacks the method's layer. The localizer stays usable: the
+  // next frame may succeed. Once tracking, a source that fails is noted and driven on without.
+  Result<Fix> localize(const QueryFrame& frame);
+
+  // The latest failure of the source that did not keep localize() from answering.
+  const std::optional<Error>& noted_error() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace milepost

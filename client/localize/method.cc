@@ -1,0 +1,61 @@
+#include "client/localize/method.h"
+
+namespace milepost {
+namespace {
+
+// The tracklet paper's proposed methods 1 and 2 (section 5.2): regression on scale, the mean of all
+// estimates, without and with its Kalman filter.
+Method paper_method(const std::string& name, bool filter) {
+  Method method;
+  method.name = name;
+  method.layer = "tracklets-scale";
+  method.match.region_margin_m = 0;
+  method.combination = Combination::mean;
+  method.tracker = PaperTrackerSettings{.filter = filter};
+  return method;
+}
+
+Method milepost_method() {
+  Method method;
+  method.name = kDefaultMethod;
+  method.layer = "tracklets";
+  method.match.max_distance_ratio = 0.85;
+  method.match.same_place_m = 2.0;
+  method.match.scale_range_margin = 0.3;
+  method.robust.cutoff = 2.5;
+  method.tracker = MotionTrackerSettings{};
+  return method;
+}
+
+}  // namespace
+
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names = {"tracklet-regression",
+                                                 "tracklet-regression-kalman", kDefaultMethod};
+  return names;
+}
+
+Result<Method> method_named(const std::string& name) {
+  if (name == "tracklet-regression") return paper_method(name, false);
+  if (name == "tracklet-regression-kalman") return paper_method(name, true);
+  if (name == kDefaultMethod) return milepost_method();
+  std::string known;
+  for (const std::string& each : method_names()) known += (known.empty() ? "" : ", ") + each;
+  return Error{ErrorCode::invalid_input, "--method", "'" + name + "' is no method",
+               "choose from " + known};
+}
+
+std::optional<Measurement> combine(const std::vector<PositionEstimate>& estimates,
+                                   const Method& method) {
+  return method.combination == Combination::mean ? combine_by_mean(estimates, method.min_sigma_m)
+                                                 : combine_robustly(estimates, method.robust);
+}
+
+std::unique_ptr<Tracker> make_tracker(const Method& method) {
+  if (const auto* paper = std::get_if<PaperTrackerSettings>(&method.tracker)) {
+    return make_paper_tracker(*paper);
+  }
+  return make_motion_tracker(std::get<MotionTrackerSettings>(method.tracker));
+}
+
+}  // namespace milepost
