@@ -1,0 +1,99 @@
+// Time of localizing a frame, its features included, against bare OpenCV SIFT of that frame.
+// usage: localizer_bench MAP_DRIVE QUERY_DRIVE [METHOD]
+#include <cstdio>
+#include <filesystem>
+
+#include <opencv2/core/utility.hpp>
+#include <opencv2/features2d.hpp>
+
+#include "client/fetch/file_source.h"
+#include "client/localize/localizer.h"
+#include "mapper/build/build_map.h"
+#include "schema/drive/frame_image.h"
+#include "schema/feature/extractor.h"
+#include "tests/bench/timing.h"
+
+namespace {
+
+using namespace milepost;
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "localizer_bench: %s\n", error.line().c_str());
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: localizer_bench MAP_DRIVE QUERY_DRIVE [METHOD]\n");
+    return 2;
+  }
+  const Result<Drive> map_drive = read_drive(argv[1]);
+  if (!map_drive) return fail(map_drive.error());
+  const Result<Drive> query = read_drive(argv[2]);
+  if (!query) return fail(query.error());
+  const Result<Method> method = method_named(argc > 3 ? argv[3] : kDefaultMethod);
+  if (!method) return fail(method.error());
+
+  const std::filesystem::path map =
+      std::filesystem::temp_directory_path() / ("localizer_bench-" + map_drive->name + ".map");
+  BuildSettings settings;
+  settings.lab = true;
+  const auto built =
+      build_map({*map_drive}, map, settings, 2, [](const BuildProgress&) { return true; });
+  if (!built) return fail(built.error());
+  Result<std::unique_ptr<MapSource>> source = open_file_source(map);
+  if (!source) return fail(source.error());
+  LocalizerSettings localizer_settings;
+  localizer_settings.method = *method;
+  Localizer localizer(std::shared_ptr<MapSource>(std::move(*source)),
+                      {query->camera.width_px, query->camera.focal_x_px, query->camera.focal_y_px},
+                      localizer_settings);
+
+  const FeatureParameters& feature = settings.feature;
+  const auto sift =
+      cv::SIFT::create(feature.max_features, feature.octave_layers, feature.contrast_threshold,
+                       feature.edge_threshold, feature.sigma);
+  FeatureExtractor extractor(feature);
+  FeatureSet features;
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+  std::vector<double> ratios;
+  std::vector<double> bare_ms;
+  double bare_total_s = 0;
+  double localizer_total_s = 0;
+  std::size_t next_gps = 0;
+  for (std::size_t i = 0; i < query->frames.size(); ++i) {
+    const Frame& frame = query->frames[i];
+    for (; next_gps < query->gps.size() &&
+           query->gps[next_gps].timestamp_s <= frame.timestamp_s + 0.001;
+         ++next_gps) {
+      const GpsFix& gps = query->gps[next_gps];
+      localizer.observe({gps.timestamp_s, gps.position, gps.sigma_m});
+    }
+    const Result<cv::Mat> gray = read_frame_gray(*query, i);
+    if (!gray) return fail(gray.error());
+    const double bare_s = bench::seconds_of(
+        [&] { sift->detectAndCompute(*gray, cv::noArray(), keypoints, descriptors); });
+    const double localizer_s = bench::seconds_of([&] {
+      const auto fix = localizer.localize(
+          {frame.timestamp_s, [&](const FeatureParameters&) -> const FeatureSet& {
+             features = extractor.extract(*gray);
+             return features;
+           }});
+      if (!fix) fail(fix.error());
+    });
+    bare_total_s += bare_s;
+    localizer_total_s += localizer_s;
+    bare_ms.push_back(1000 * bare_s);
+    ratios.push_back(localizer_s / bare_s);
+  }
+  std::filesystem::remove(map);
+  std::printf(
+      "localizer / bare SIFT = %.2f of the sums, %.2f in the median frame   (%s, %s, %zu frames, "
+      "bare %.1f ms)\n",
+      localizer_total_s / bare_total_s, bench::median(ratios), method->name.c_str(),
+      query->name.c_str(), query->frames.size(), bench::median(bare_ms));
+  return 0;
+}

@@ -1,0 +1,189 @@
+#include "client/fetch/documents.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/client/fetch/fake_map.h"
+
+namespace milepost::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+using Change = std::function<void(json&)>;
+using Changes = std::vector<std::pair<std::string, Change>>;
+
+constexpr char kWhere[] = "http://here/document";
+
+void expect_corrupt(bool parsed, const Error& error) {
+  ASSERT_FALSE(parsed);
+  EXPECT_EQ(error.code, ErrorCode::corrupt);
+  EXPECT_THAT(error.line(), StartsWith(std::string(kWhere) + ": "));
+}
+
+TEST(SegmentDocument, IsRead) {
+  const FakeMap map;
+  const auto document = parse_segment_document(map.segment_document(), kWhere, map.version(), "s1");
+  ASSERT_TRUE(document.ok()) << document.error().line();
+  EXPECT_EQ(document->description.id, "s1");
+  EXPECT_EQ(document->description.vertices.size(), 3U);
+  ASSERT_EQ(document->tiles.at("tracklets").size(), 10U);
+  EXPECT_EQ(document->tiles.at("tracklets")[4], map.index[4]);
+  EXPECT_EQ(document->tiles.at("tracklets")[4].along.from_m, 80);
+  EXPECT_EQ(document->tiles.at("tracklets")[4].along.to_m, 105);
+  EXPECT_EQ(document->tiles.at("tracklets")[4].bytes, 1040U);
+}
+
+TEST(SegmentDocument, FurtherKeysAreAllowed) {
+  const FakeMap map;
+  json document = json::parse(map.segment_document());
+  document["news"] = {1, 2};
+  document["tiles"]["tracklets"][0]["colour"] = "blue";
+  EXPECT_TRUE(parse_segment_document(document.dump(), kWhere, map.version(), "s1").ok());
+}
+
+TEST(SegmentDocument, EveryWrongFieldIsRefused) {
+  const FakeMap map;
+  const auto first_tile = [](json& d) -> json& { return d["tiles"]["tracklets"][0]; };
+  const Changes changes = {
+      {"another map", [](json& d) { d["map"] = "village"; }},
+      {"another build", [](json& d) { d["build"] = std::string(32, 'b'); }},
+      {"another segment", [](json& d) { d["segment"] = "s2"; }},
+      {"no map", [](json& d) { d.erase("map"); }},
+      {"map a number", [](json& d) { d["map"] = 7; }},
+      {"length negative", [](json& d) { d["length_m"] = -1; }},
+      {"length a text", [](json& d) { d["length_m"] = "200"; }},
+      {"length absurd", [](json& d) { d["length_m"] = 1e300; }},
+      {"no line", [](json& d) { d.erase("line"); }},
+      {"line an object", [](json& d) { d["line"] = json::object(); }},
+      {"vertex a number", [](json& d) { d["line"][0] = 49; }},
+      {"vertex too short",
+       [](json& d) {
+         d["line"][0] = {49, 8};
+       }},
+      {"vertex of texts",
+       [](json& d) {
+         d["line"][0] = {"49", "8", "1"};
+       }},
+      {"latitude", [](json& d) { d["line"][0][0] = 91; }},
+      {"longitude", [](json& d) { d["line"][0][1] = -181; }},
+      {"altitude", [](json& d) { d["line"][0][2] = 1e9; }},
+      {"null in a vertex", [](json& d) { d["line"][0][2] = nullptr; }},
+      {"successor a number", [](json& d) { d["successors"] = {1}; }},
+      {"successor a path", [](json& d) { d["successors"] = {"../x"}; }},
+      {"no tiles", [](json& d) { d.erase("tiles"); }},
+      {"tiles a list", [](json& d) { d["tiles"] = json::array(); }},
+      {"layer a number", [](json& d) { d["tiles"]["tracklets"] = 1; }},
+      {"layer an object",
+       [](json& d) {
+         d["tiles"]["tracklets"] = {{"a", 1}};
+       }},
+      {"layer's name a path", [](json& d) { d["tiles"]["../x"] = json::array(); }},
+      {"tile a number", [&](json& d) { first_tile(d) = 1; }},
+      {"index negative", [&](json& d) { first_tile(d)["index"] = -1; }},
+      {"index a fraction", [&](json& d) { first_tile(d)["index"] = 0.5; }},
+      {"index too large", [&](json& d) { first_tile(d)["index"] = 4294967296ULL; }},
+      {"index twice", [&](json& d) { first_tile(d)["index"] = 1; }},
+      {"from after to", [&](json& d) { first_tile(d)["from_m"] = 26; }},
+      {"from absurd", [&](json& d) { first_tile(d)["from_m"] = -1e300; }},
+      {"to a null", [&](json& d) { first_tile(d)["to_m"] = nullptr; }},
+      {"items negative", [&](json& d) { first_tile(d)["items"] = -1; }},
+      {"no bytes", [&](json& d) { first_tile(d)["bytes"] = 0; }},
+      {"too many bytes", [&](json& d) { first_tile(d)["bytes"] = 1ULL << 40U; }},
+      {"digest short", [&](json& d) { first_tile(d)["digest"] = "00"; }},
+      {"digest absent", [&](json& d) { first_tile(d).erase("digest"); }},
+  };
+  for (const auto& [name, change] : changes) {
+    SCOPED_TRACE(name);
+    json document = json::parse(map.segment_document());
+    change(document);
+    const auto parsed = parse_segment_document(document.dump(), kWhere, map.version(), "s1");
+    expect_corrupt(parsed.ok(), parsed.ok() ? Error{} : parsed.error());
+  }
+}
+
+TEST(SegmentDocument, TextThatIsNoDocumentIsRefused) {
+  const FakeMap map;
+  const std::string good = map.segment_document();
+  for (const std::string& text :
+       {std::string(), std::string("[]"), std::string("7"), std::string("<html></html>"),
+        good.substr(0, good.size() / 2), good + "x", std::string(1000000, '['),
+        std::string("{\"map\": \"\xff\xfe\"}"), std::string("{\"length_m\": 1e999}")}) {
+    SCOPED_TRACE(text.substr(0, 20));
+    const auto parsed = parse_segment_document(text, kWhere, map.version(), "s1");
+    expect_corrupt(parsed.ok(), parsed.ok() ? Error{} : parsed.error());
+  }
+}
+
+TEST(MapDocument, IsRead) {
+  const FakeMap map;
+  const auto description = parse_map_document(map.map_document(), kWhere, "town");
+  ASSERT_TRUE(description.ok()) << description.error().line();
+  EXPECT_EQ(description->version, map.version());
+  EXPECT_EQ(description->layers.size(), 2U);
+  EXPECT_EQ(description->layers.at("walls"), R"({"a":1})");
+}
+
+TEST(MapDocument, EveryWrongFieldIsRefused) {
+  const FakeMap map;
+  const Changes changes = {
+      {"another name", [](json& d) { d["name"] = "village"; }},
+      {"name with a line break", [](json& d) { d["name"] = "to\nwn"; }},
+      {"build no digest", [](json& d) { d["build"] = "latest"; }},
+      {"layers absent", [](json& d) { d.erase("layers"); }},
+      {"layer a number", [](json& d) { d["layers"] = {1}; }},
+      {"layer without parameters", [](json& d) { d["layers"] = {"roofs"}; }},
+      {"parameters a text", [](json& d) { d["layer_parameters"]["walls"] = "x"; }},
+      {"feature a list", [](json& d) { d["feature"] = {1}; }},
+  };
+  for (const auto& [name, change] : changes) {
+    SCOPED_TRACE(name);
+    json document = json::parse(map.map_document());
+    change(document);
+    const auto parsed = parse_map_document(document.dump(), kWhere, "town");
+    expect_corrupt(parsed.ok(), parsed.ok() ? Error{} : parsed.error());
+  }
+}
+
+TEST(NearbyDocument, EveryWrongFieldIsRefused) {
+  const FakeMap map;
+  ASSERT_TRUE(parse_nearby_document(map.near_document(), kWhere).ok());
+  EXPECT_TRUE(parse_nearby_document(R"({"segments": []})", kWhere)->empty());
+  const auto first = [](json& d) -> json& { return d["segments"][0]; };
+  const Changes changes = {
+      {"segments absent", [](json& d) { d.erase("segments"); }},
+      {"entry a number", [&](json& d) { first(d) = 1; }},
+      {"map empty", [&](json& d) { first(d)["map"] = ""; }},
+      {"map too long", [&](json& d) { first(d)["map"] = std::string(256, 'm'); }},
+      {"build no digest", [&](json& d) { first(d)["build"] = "b"; }},
+      {"segment a path", [&](json& d) { first(d)["segment"] = "a/b"; }},
+      {"along negative", [&](json& d) { first(d)["along_m"] = -0.1; }},
+      {"distance negative", [&](json& d) { first(d)["distance_m"] = -0.1; }},
+      {"length a null", [&](json& d) { first(d)["length_m"] = nullptr; }},
+  };
+  for (const auto& [name, change] : changes) {
+    SCOPED_TRACE(name);
+    json document = json::parse(map.near_document());
+    change(document);
+    const auto parsed = parse_nearby_document(document.dump(), kWhere);
+    expect_corrupt(parsed.ok(), parsed.ok() ? Error{} : parsed.error());
+  }
+}
+
+TEST(NearbyDocument, TheErrorNamesTheField) {
+  const auto parsed = parse_nearby_document(R"({"segments": 7})", kWhere);
+  ASSERT_FALSE(parsed.ok());
+  EXPECT_THAT(parsed.error().line(), HasSubstr("\"segments\""));
+}
+
+}  // namespace
+}  // namespace milepost::testing

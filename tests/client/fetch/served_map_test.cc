@@ -1,0 +1,147 @@
+// The client against the server itself: what one sends is what the other expects.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "client/fetch/file_source.h"
+#include "client/fetch/http_source.h"
+#include "schema/store/map_store.h"
+#include "server/catalog/catalog.h"
+#include "server/server.h"
+#include "tests/support/scripted_server.h"
+#include "tests/support/temp_folder.h"
+
+namespace milepost::testing {
+namespace {
+
+using ::testing::ElementsAre;
+
+Bytes frame_of(std::uint32_t index) {
+  return Bytes(5000 + index, static_cast<std::uint8_t>(index));
+}
+
+// A map with lengths that no decimal number is exactly, written as a mapper would.
+std::string write_map(const std::filesystem::path& file) {
+  auto writer = MapWriter::create(file);
+  EXPECT_TRUE(writer.ok());
+  EXPECT_TRUE(writer->set_feature_json(R"({"kind":"sift"})").ok());
+  EXPECT_TRUE(writer->add_layer("tracklets", R"({"tile_length_m":20})").ok());
+  EXPECT_TRUE(writer->add_layer("walls", "{}").ok());
+  const StoredSegment segment{"s1", 200.2, {{49, 8.4, 110, 0}, {49.0018, 8.4, 111, 200.2}}, {"s2"}};
+  EXPECT_TRUE(writer->add_segment(segment).ok());
+  for (std::uint32_t k = 0; k < 10; ++k) {
+    const AlongRange along{20.0 * k + 1.0 / 3, 20.0 * k + 25 + 1.0 / 7};
+    EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, frame_of(k)).ok());
+  }
+  auto build = writer->finish();
+  EXPECT_TRUE(build.ok());
+  return *build;
+}
+
+class ServedMapTest : public ::testing::Test {
+ protected:
+  ServedMapTest() {
+    std::filesystem::create_directory(folder_ / "maps");
+    version_ = {"town", write_map(folder_ / "maps" / "town.mpm")};
+    auto catalog = server::Catalog::open(folder_ / "maps", 2, [](const std::string&) {});
+    EXPECT_TRUE(catalog.ok());
+    server::ServerSettings settings;
+    settings.threads = 2;
+    auto started = server::Server::start(*catalog, settings);
+    EXPECT_TRUE(started.ok());
+    server_ = std::move(started).value();
+  }
+
+  std::unique_ptr<MapSource> open_source(std::uint64_t cache_limit_bytes = 1U << 30U) const {
+    HttpSourceSettings settings;
+    settings.cache_limit_bytes = cache_limit_bytes;
+    settings.server_url = "http://" + server_->address();
+    settings.cache_directory = folder_ / "cache";
+    settings.attempts = 1;
+    auto source = open_http_source(settings);
+    EXPECT_TRUE(source.ok());
+    return std::move(source).value();
+  }
+
+  static std::vector<std::uint32_t> indices_of(const Result<std::vector<TileFrame>>& tiles) {
+    EXPECT_TRUE(tiles.ok()) << tiles.error().line();
+    std::vector<std::uint32_t> indices;
+    for (const TileFrame& tile : *tiles) {
+      EXPECT_EQ(tile.frame, frame_of(tile.index));
+      indices.push_back(tile.index);
+    }
+    return indices;
+  }
+
+  TempFolder folder_;
+  MapVersion version_;
+  std::unique_ptr<server::Server> server_;
+};
+
+TEST_F(ServedMapTest, TheServerAndTheFileAnswerTheSame) {
+  const auto file = std::move(open_file_source(folder_ / "maps" / "town.mpm")).value();
+  const auto served = open_source();
+  const auto description = served->describe(version_);
+  ASSERT_TRUE(description.ok()) << description.error().line();
+  EXPECT_EQ(description->layers, file->describe(version_)->layers);
+  EXPECT_EQ(description->feature_json, file->describe(version_)->feature_json);
+  const auto segment = served->segment(version_, "s1");
+  ASSERT_TRUE(segment.ok()) << segment.error().line();
+  EXPECT_EQ(segment->vertices, file->segment(version_, "s1")->vertices);
+  EXPECT_EQ(segment->length_m, 200.2);
+  EXPECT_THAT(segment->successors, ElementsAre("s2"));
+  EXPECT_EQ(*served->layer_bytes(version_, "s1", "tracklets"),
+            *file->layer_bytes(version_, "s1", "tracklets"));
+  EXPECT_TRUE(served->tiles(version_, "s1", "walls", {0, 100})->empty());
+
+  const GeoPoint position{49.00045, 8.4001, 0};
+  const auto near = served->segments_near(position, 50);
+  const auto near_in_file = file->segments_near(position, 50);
+  ASSERT_TRUE(near.ok()) << near.error().line();
+  ASSERT_EQ(near->size(), 1U);
+  EXPECT_EQ(near->front().version, version_);
+  EXPECT_EQ(near->front().segment, "s1");
+  EXPECT_NEAR(near->front().along_m, near_in_file->front().along_m, 0.01);
+  EXPECT_NEAR(near->front().distance_m, near_in_file->front().distance_m, 0.01);
+}
+
+TEST_F(ServedMapTest, EveryPairOfTilesIsFetchedAlike) {
+  const auto source = open_source(/*cache_limit_bytes=*/0);
+  for (std::uint32_t first = 0; first < 9; ++first) {
+    for (std::uint32_t last = first; last < 10; ++last) {
+      const SourceCounters before = source->counters();
+      const auto tiles =
+          source->tiles(version_, "s1", "tracklets", {20.0 * first + 10, 20.0 * last + 10});
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t k = first; k <= last; ++k) expected.push_back(k);
+      EXPECT_EQ(indices_of(tiles), expected);
+      EXPECT_EQ(source->counters().tiles_fetched, before.tiles_fetched + expected.size());
+    }
+  }
+  EXPECT_EQ(source->counters().requests, 1U + 54U);  // the segment's document, 54 ranges
+}
+
+TEST_F(ServedMapTest, TheCacheServesWhenTheServerHasGone) {
+  EXPECT_THAT(indices_of(open_source()->tiles(version_, "s1", "tracklets", {30, 70})),
+              ElementsAre(1, 2, 3));
+  const auto source = open_source();
+  server_->stop();
+  EXPECT_THAT(indices_of(source->tiles(version_, "s1", "tracklets", {30, 70})),
+              ElementsAre(1, 2, 3));
+  EXPECT_EQ(source->segments_near({49, 8.4, 0}, 50)->size(), 1U);
+  EXPECT_EQ(source->tiles(version_, "s1", "tracklets", {100, 110}).error().code,
+            ErrorCode::unavailable);
+}
+
+TEST_F(ServedMapTest, AnotherBuildIsGoneAndAnotherMapAbsent) {
+  const auto source = open_source();
+  const MapVersion old{"town", std::string(32, 'a')};
+  EXPECT_EQ(source->segment(old, "s1").error().code, ErrorCode::gone);
+  EXPECT_EQ(source->segment(version_, "s7").error().code, ErrorCode::not_found);
+  EXPECT_EQ(source->segment({"village", version_.build}, "s1").error().code, ErrorCode::not_found);
+}
+
+}  // namespace
+}  // namespace milepost::testing

@@ -1,0 +1,153 @@
+#include "mapper/follow/feature_follower.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "mapper/follow/motion.h"
+
+namespace milepost {
+namespace {
+
+// Points of the world in front of a camera that drives straight ahead, each with a descriptor of
+// its own, as a feature extractor would report them.
+class World {
+ public:
+  explicit World(int points) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> lateral(-8, 8);
+    std::uniform_real_distribution<double> height(-2, 4);
+    std::uniform_real_distribution<double> along(12, 60);
+    std::uniform_int_distribution<int> byte(0, 140);
+    for (int i = 0; i < points; ++i) {
+      Point point{lateral(random), height(random), along(random), {}};
+      for (auto& value : point.descriptor) value = static_cast<std::uint8_t>(byte(random));
+      points_.push_back(point);
+    }
+  }
+
+  FeatureSet seen_from(double along_m) const {
+    FeatureSet set;
+    for (const Point& point : points_) {
+      const double depth_m = point.along_m - along_m;
+      if (depth_m < 2) continue;
+      set.features.push_back({static_cast<float>(300 + 360 * point.right_m / depth_m),
+                              static_cast<float>(250 - 360 * point.up_m / depth_m),
+                              static_cast<float>(80 / depth_m)});
+      set.descriptors.push_back(point.descriptor);
+    }
+    return set;
+  }
+
+  void make_descriptors_alike() {
+    for (Point& point : points_) point.descriptor = points_.front().descriptor;
+  }
+
+ private:
+  struct Point {
+    double right_m, up_m, along_m;
+    Descriptor descriptor;
+  };
+  std::vector<Point> points_;
+};
+
+std::vector<Track> follow(FeatureFollower& follower, const World& world, int frames) {
+  std::vector<Track> all;
+  for (int k = 0; k < frames; ++k) {
+    for (Track& track : follower.add(world.seen_from(2.0 * k), 2.0 * k))
+      all.push_back(std::move(track));
+  }
+  for (Track& track : follower.finish()) all.push_back(std::move(track));
+  return all;
+}
+
+TEST(FeatureFollower, FollowsDistinctFeaturesThroughAllFrames) {
+  const World world(60);
+  FeatureFollower follower({}, 600);
+  const std::vector<Track> tracks = follow(follower, world, 5);
+  int whole = 0;
+  for (const Track& track : tracks) {
+    for (const Observation& observation : track)
+      EXPECT_EQ(observation.descriptor, track[0].descriptor);
+    for (std::size_t m = 1; m < track.size(); ++m) {
+      EXPECT_DOUBLE_EQ(track[m].along_m - track[m - 1].along_m, 2.0);
+      EXPECT_GT(track[m].feature.scale_px, track[m - 1].feature.scale_px);
+    }
+    whole += track.size() == 5 ? 1 : 0;
+  }
+  EXPECT_GE(whole, 40);  // the others leave the search by their large motion close to the camera
+}
+
+TEST(FeatureFollower, AnAmbiguousDescriptorStartsNoTrack) {
+  World world(60);
+  world.make_descriptors_alike();
+  FeatureFollower follower({}, 600);
+  EXPECT_THAT(follow(follower, world, 5), testing::IsEmpty());
+}
+
+TEST(FeatureFollower, AFeatureBelongsToOneTrackAtMost) {
+  const World world(60);
+  FeatureSet first = world.seen_from(0);
+  FeatureFollower follower({}, 600);
+  EXPECT_THAT(follower.add(first, 0), testing::IsEmpty());
+  // A second feature with the same descriptor nearby: only one of the two can go on.
+  first.features.push_back(first.features[0]);
+  first.features.back().x_px += 3;
+  first.descriptors.push_back(first.descriptors[0]);
+  FeatureFollower twice({}, 600);
+  (void)twice.add(first, 0);
+  for (int k = 1; k < 5; ++k) (void)twice.add(world.seen_from(2.0 * k), 2.0 * k);
+  int followed = 0;
+  for (const Track& track : twice.finish()) {
+    followed += track[0].descriptor == first.descriptors[0] ? 1 : 0;
+  }
+  EXPECT_LE(followed, 1);
+}
+
+TEST(FeatureFollower, EndsShortTracksInSilence) {
+  const World world(60);
+  FeatureFollower follower({}, 600);
+  (void)follower.add(world.seen_from(0), 0);
+  (void)follower.add(world.seen_from(2), 2);
+  EXPECT_THAT(follower.add(FeatureSet{}, 4), testing::IsEmpty());
+  EXPECT_THAT(follower.finish(), testing::IsEmpty());
+}
+
+TEST(PredictPosition, IsExactUnderStraightMotion) {
+  const double right_m = 3;
+  const double ahead_m = 30;
+  Track track;
+  for (const double along_m : {0.0, 2.0}) {
+    const double depth_m = ahead_m - along_m;
+    Observation observation;
+    observation.along_m = along_m;
+    observation.feature = {static_cast<float>(360 * right_m / depth_m), 0,
+                           static_cast<float>(80 / depth_m)};
+    track.push_back(observation);
+  }
+  const PredictedPosition predicted = predict_position(track, 4.0);
+  EXPECT_NEAR(predicted.x_px, 360 * right_m / (ahead_m - 4), 0.1);
+  EXPECT_NEAR(predicted.motion_px, 360 * right_m / 26 - 360 * right_m / 28, 0.1);
+}
+
+TEST(FeatureGrid, VisitsEveryFeatureInTheCircle) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> pixel(0, 600);
+  std::vector<Feature> features(500);
+  for (Feature& feature : features) feature = {pixel(random), pixel(random), 2};
+  const FeatureGrid grid(features);
+  for (const auto& [x, y] :
+       {std::pair(0.0F, 0.0F), std::pair(300.0F, 250.0F), std::pair(700.0F, -50.0F)}) {
+    std::vector<std::size_t> visited;
+    grid.visit_near(x, y, 60, [&](std::size_t i) { visited.push_back(i); });
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (std::hypot(features[i].x_px - x, features[i].y_px - y) > 60) continue;
+      EXPECT_THAT(visited, testing::Contains(i));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace milepost

@@ -1,0 +1,31 @@
+// A small valid drive in a temporary folder, for tests to damage one thing of.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace milepost {
+
+class DriveFolder {
+ public:
+  DriveFolder();  // four local frames of 16x12 pixels, 2 m and 0.2 s apart, driven north
+  ~DriveFolder();
+  DriveFolder(const DriveFolder&) = delete;
+  DriveFolder& operator=(const DriveFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+  void write(const std::string& name, const std::string& content) const;
+  std::string read(const std::string& name) const;
+  // Replaces the only place in the file that says `old_text`; fails the test when there is none.
+  void replace(const std::string& name, const std::string& old_text,
+               const std::string& new_text) const;
+  // Replaces a line of a table; the header is line 1.
+  void replace_line(const std::string& name, std::size_t line, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace milepost

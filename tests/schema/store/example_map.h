@@ -1,0 +1,25 @@
+// A small map on the disk for the tests of the store.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "schema/base/bytes.h"
+#include "schema/store/map_store.h"
+
+namespace milepost::testing {
+
+// Reproducible bytes that no compressor shortens, as a stored frame's.
+Bytes frame_of(std::size_t size, std::uint32_t seed);
+
+// Two segments, "east" and "west", and two layers, "tracklets" and "walls". On "east" tile i of
+// "tracklets" (0 to 9) reaches from 10 i to 10 i + 25 m; tile 3 reaches further, to 80 m.
+void add_example(MapWriter& writer);
+
+// The example's map as a file; returns its build.
+std::string write_example(const std::filesystem::path& file);
+
+std::string content_of(const std::filesystem::path& file);
+
+}  // namespace milepost::testing

@@ -1,0 +1,219 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "schema/base/digest.h"
+#include "schema/base/file.h"
+#include "schema/store/map_store.h"
+#include "tests/schema/store/example_map.h"
+#include "tests/support/temp_folder.h"
+
+namespace milepost {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::content_of;
+using ::testing::ElementsAre;
+using testing::frame_of;
+using ::testing::HasSubstr;
+
+std::ptrdiff_t files_in(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+class MapWriterTest : public ::testing::Test {
+ protected:
+  MapWriter writer() {
+    Result<MapWriter> writer = MapWriter::create(file_);
+    EXPECT_TRUE(writer.ok()) << writer.error().line();
+    return std::move(*writer);
+  }
+
+  testing::TempFolder folder_;
+  fs::path file_ = folder_ / "town.map";
+};
+
+TEST_F(MapWriterTest, TheFileIsThereAfterFinishAndNotBefore) {
+  MapWriter map = writer();
+  testing::add_example(map);
+  EXPECT_FALSE(fs::exists(file_));
+  ASSERT_TRUE(map.finish().ok());
+  EXPECT_TRUE(fs::exists(file_));
+  EXPECT_EQ(files_in(folder_.path()), 1);
+}
+
+TEST_F(MapWriterTest, AbandonedItLeavesNothing) {
+  {
+    MapWriter map = writer();
+    testing::add_example(map);
+  }
+  EXPECT_EQ(files_in(folder_.path()), 0);
+}
+
+TEST_F(MapWriterTest, TheSameCallsGiveTheSameBytes) {
+  const std::string build = testing::write_example(file_);
+  const fs::path other = folder_ / "another-name.map";
+  EXPECT_EQ(testing::write_example(other), build);
+  EXPECT_EQ(content_of(other), content_of(file_));
+}
+
+// The fields of FORMAT.md 2.7, put together here by hand.
+TEST_F(MapWriterTest, TheBuildIsTheDigestThatFormatMdTells) {
+  MapWriter map = writer();
+  ASSERT_TRUE(map.set_feature_json("{}").ok());
+  ASSERT_TRUE(map.add_layer("l", "{\"a\": 1}").ok());
+  ASSERT_TRUE(map.add_segment({"s", 20, {{49, 8, 100, 0.5}}, {"t"}}).ok());
+  ASSERT_TRUE(map.add_tile("s", "l", 6, {1, 2.5}, 3, as_bytes("abc")).ok());
+  FieldDigest digest;
+  digest.add(std::uint64_t{1});
+  digest.add("{}");
+  digest.add(std::uint64_t{1});
+  digest.add("l");
+  digest.add("{\"a\": 1}");
+  digest.add(std::uint64_t{1});
+  digest.add("s");
+  digest.add(20.0);
+  digest.add(std::uint64_t{1});
+  digest.add("s");
+  digest.add(std::uint64_t{0});
+  for (const double number : {49.0, 8.0, 100.0, 0.5}) digest.add(number);
+  digest.add(std::uint64_t{1});
+  digest.add("s");
+  digest.add(std::uint64_t{0});
+  digest.add("t");
+  digest.add(std::uint64_t{1});
+  digest.add("s");
+  digest.add("l");
+  digest.add(std::uint64_t{6});
+  digest.add(1.0);
+  digest.add(2.5);
+  digest.add(std::uint64_t{3});
+  digest.add(std::uint64_t{3});
+  digest.add(digest_of(as_bytes("abc")));
+  EXPECT_EQ(*map.finish(), digest.finish());
+}
+
+TEST_F(MapWriterTest, TheOrderOfTheCallsIsNotInTheBuild) {
+  const auto write = [&](std::uint32_t first, std::uint32_t second) {
+    MapWriter map = writer();
+    EXPECT_TRUE(map.add_layer("l", "{}").ok());
+    EXPECT_TRUE(map.add_segment({"s", 20, {}, {}}).ok());
+    EXPECT_TRUE(map.add_tile("s", "l", first, {0, 1}, 1, frame_of(10, first)).ok());
+    EXPECT_TRUE(map.add_tile("s", "l", second, {0, 1}, 1, frame_of(10, second)).ok());
+    return *map.finish();
+  };
+  EXPECT_EQ(write(1, 2), write(2, 1));
+  EXPECT_NE(write(1, 2), write(1, 3));
+}
+
+TEST_F(MapWriterTest, ReplacesAMapWhileAReaderGoesOnReadingItsBuild) {
+  const std::string old_build = testing::write_example(file_);
+  const auto reader = MapReader::open(file_);
+  ASSERT_TRUE(reader.ok());
+  MapWriter map = writer();
+  ASSERT_TRUE(map.add_layer("tracklets", "{}").ok());
+  ASSERT_TRUE(map.add_segment({"new", 1, {}, {}}).ok());
+  const std::string new_build = *map.finish();
+
+  EXPECT_TRUE(reader->verify().ok());
+  EXPECT_EQ(reader->build(), old_build);
+  EXPECT_EQ(*reader->tile("east", "tracklets", 9), frame_of(12000, 9));
+  EXPECT_NE(new_build, old_build);
+  EXPECT_EQ(MapReader::open(file_)->build(), new_build);
+  EXPECT_THAT(MapReader::open(file_)->segment_ids(), ElementsAre("new"));
+}
+
+TEST_F(MapWriterTest, AWriterThatIsDoneDoesNotDisturbTheNext) {
+  auto first = std::make_unique<MapWriter>(writer());
+  ASSERT_TRUE(first->finish().ok());
+  MapWriter second = writer();
+  first.reset();
+  testing::add_example(second);
+  ASSERT_TRUE(second.finish().ok());
+  EXPECT_TRUE(MapReader::open(file_)->verify().ok());
+}
+
+TEST_F(MapWriterTest, LeftoversOfAKilledWriterDoNotMatter) {
+  std::ofstream(partial_path_for(file_)) << "half a map";
+  testing::write_example(file_);
+  EXPECT_TRUE(MapReader::open(file_)->verify().ok());
+}
+
+TEST_F(MapWriterTest, AMapWithoutAnythingIsAMap) {
+  MapWriter map = writer();
+  ASSERT_TRUE(map.finish().ok());
+  const auto reader = MapReader::open(file_);
+  ASSERT_TRUE(reader.ok()) << reader.error().line();
+  EXPECT_EQ(reader->feature_json(), "{}");
+  EXPECT_EQ(reader->bounds().north_deg, 0);
+  EXPECT_TRUE(reader->verify().ok());
+}
+
+TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  MapWriter map = writer();
+  testing::add_example(map);
+  const auto expect_refused = [&](const Status& status, const std::string& what) {
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
+    EXPECT_EQ(status.error().line(), file_.string() + ": " + what);
+  };
+  expect_refused(map.add_segment({"a/b", 1, {}, {}}), "'a/b' is no segment's id");
+  expect_refused(map.add_layer("", "{}"), "'' is no layer's name");
+  expect_refused(map.add_segment({"c", nan, {}, {}}), "segment c has a number that is not finite");
+  expect_refused(map.add_segment({"c", 1, {{nan, 0, 0, 0}}, {}}),
+                 "segment c has a number that is not finite");
+  expect_refused(map.add_tile("east", "walls", 8, {2, 1}, 1, {}),
+                 "tile 8 of segment east has no along range");
+  expect_refused(map.add_tile("east", "walls", 8, {nan, 1}, 1, {}),
+                 "tile 8 of segment east has no along range");
+  const auto build = map.finish();
+  ASSERT_TRUE(build.ok()) << build.error().line();
+  EXPECT_EQ(*build, testing::write_example(folder_ / "same.map"));
+}
+
+TEST_F(MapWriterTest, AfterAnErrorOfSqliteThereIsNoMap) {
+  MapWriter map = writer();
+  testing::add_example(map);
+  const Status twice = map.add_tile("east", "walls", 7, {0, 1}, 1, {});
+  ASSERT_FALSE(twice.ok());
+  EXPECT_EQ(twice.error().code, ErrorCode::invalid_input);
+  EXPECT_THAT(twice.error().line(), HasSubstr(file_.string() + ": UNIQUE constraint failed"));
+  EXPECT_FALSE(map.add_layer("more", "{}").ok());
+  const auto build = map.finish();
+  ASSERT_FALSE(build.ok());
+  EXPECT_EQ(build.error().line(), twice.error().line());
+  EXPECT_FALSE(fs::exists(file_));
+}
+
+TEST_F(MapWriterTest, ATileNeedsItsSegmentAndItsLayer) {
+  MapWriter map = writer();
+  testing::add_example(map);
+  const Status status = map.add_tile("nowhere", "walls", 0, {0, 1}, 1, {});
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
+  EXPECT_THAT(status.error().line(), HasSubstr("FOREIGN KEY constraint failed"));
+}
+
+TEST_F(MapWriterTest, NamesAFolderThatIsNotThere) {
+  const auto writer = MapWriter::create(folder_ / "none" / "town.map");
+  ASSERT_FALSE(writer.ok());
+  EXPECT_EQ(writer.error().code, ErrorCode::io);
+  EXPECT_THAT(writer.error().line(), HasSubstr("none/town.map: unable to open database file"));
+}
+
+TEST_F(MapWriterTest, NamesAPlaceThatCannotBeTaken) {
+  fs::create_directories(file_ / "full");
+  MapWriter map = writer();
+  const auto build = map.finish();
+  ASSERT_FALSE(build.ok());
+  EXPECT_EQ(build.error().code, ErrorCode::io);
+  EXPECT_THAT(build.error().line(), HasSubstr("town.map: cannot be replaced"));
+  EXPECT_EQ(files_in(folder_.path()), 1);
+}
+
+}  // namespace
+}  // namespace milepost

@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Reads a stored tile as FORMAT.md tells, without milepost's code, and prints what it holds.
+
+usage: read_tile.py GENERATED TILE     GENERATED: folder of flatc's Python code for tile.fbs
+Exit code 77 where a Python module is missing.
+"""
+import sys
+
+try:
+    import flatbuffers
+    import zstandard
+except ImportError as missing:
+    print(missing)
+    sys.exit(77)
+
+sys.path.insert(0, sys.argv[1])
+from milepost.fbs.TrackletTile import TrackletTile  # noqa: E402
+
+
+def content_of(frame):
+    """The size-prefixed FlatBuffer of a frame."""
+    header = zstandard.get_frame_parameters(frame)
+    assert header.has_checksum and header.content_size <= 16 << 20
+    content = zstandard.ZstdDecompressor().decompress(frame)
+    assert flatbuffers.util.GetSizePrefix(content, 0) == len(content) - 4
+    assert flatbuffers.util.GetBufferIdentifier(content, 0, size_prefixed=True) == b"MPT1"
+    return content
+
+
+def line_of(tile, i):
+    """What read_tile_test prints for tracklet i."""
+    origin_m = tile.OriginM()
+    size = tile.DescriptorBytes()
+    descriptor = bytes(tile.Descriptors(j) for j in range(size * i, size * (i + 1)))
+    return "%.17g %.9g %.9g %.9g %.17g %.17g %d %d %d %d %.9g %.9g %d %s" % (
+        origin_m + tile.OffsetM(i), tile.Slope(i), tile.ScaleMinPx(i), tile.ScaleMaxPx(i),
+        origin_m + tile.AlongBeginM(i), origin_m + tile.AlongEndM(i),
+        tile.XMinPx(i), tile.XMaxPx(i), tile.YMinPx(i), tile.YMaxPx(i),
+        tile.RSquared(i), tile.ResidualSigmaM(i), tile.Observations(i), descriptor.hex())
+
+
+def main():
+    with open(sys.argv[2], "rb") as file:
+        content = content_of(file.read())
+    tile = TrackletTile.GetRootAs(content, 4)
+    print(tile.Segment().decode(), tile.Index(), tile.Model())
+    for i in range(tile.SlopeLength()):
+        print(line_of(tile, i))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,53 @@
+// A bare client over a loopback socket: it sends exactly the bytes of a test.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace milepost::server {
+
+struct Reply {
+  int status = 0;                              // 0: the connection ended before a whole header
+  std::map<std::string, std::string> headers;  // names in lower case
+  std::string body;                            // as much as came
+  bool whole = false;                          // the body has the length that was promised
+
+  std::string header(const std::string& name) const {
+    const auto found = headers.find(name);
+    return found == headers.end() ? "" : found->second;
+  }
+};
+
+// Throws if the socket fails; reading gives up after 60 s.
+class Connection {
+ public:
+  Connection();  // a socket that is not connected yet
+  explicit Connection(std::uint16_t port, int receive_buffer_bytes = 0);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  bool connect(std::uint16_t port);
+  // False if the peer has closed.
+  bool send(std::string_view bytes);
+  void send_get(const std::string& target, const std::string& more_headers = "");
+  // The next answer; one to HEAD or 304 has no body.
+  Reply receive(bool to_head = false);
+  // Whether the peer closes without a further byte.
+  bool closed();
+  // Some bytes, up to `count`; fewer only when the peer has closed.
+  std::string read(std::size_t count);
+
+ private:
+  bool fill();
+
+  int socket_;
+  std::string buffer_;
+};
+
+// One request on a connection of its own.
+Reply fetch(std::uint16_t port, const std::string& target, const std::string& more_headers = "");
+
+}  // namespace milepost::server

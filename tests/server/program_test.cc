@@ -1,0 +1,241 @@
+// The program itself, as an operator starts it.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/server/connection.h"
+#include "tests/server/test_map.h"
+
+extern char** environ;
+
+namespace milepost::server {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+// A running milepost-server, with its two outputs in pipes.
+class Program {
+ public:
+  explicit Program(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), MILEPOST_SERVER);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    std::array<int, 2> out{};
+    std::array<int, 2> err{};
+    if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(err.data(), O_CLOEXEC) != 0) abort();
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
+    if (posix_spawn(&process_, argv[0], &actions, nullptr, argv.data(), environ) != 0) abort();
+    posix_spawn_file_actions_destroy(&actions);
+    close(out[1]);
+    close(err[1]);
+    out_ = out[0];
+    err_ = err[0];
+  }
+
+  ~Program() {
+    if (process_ > 0) {
+      kill(process_, SIGKILL);
+      waitpid(process_, nullptr, 0);
+    }
+    close(out_);
+    close(err_);
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  // The next line of standard output; what there is if it ends.
+  std::string line() {
+    std::string text;
+    for (char c = 0; ::read(out_, &c, 1) == 1 && c != '\n';) text += c;
+    return text;
+  }
+  std::string output() { return rest_of(out_); }
+  std::string error() { return rest_of(err_); }
+  void signal(int number) const { kill(process_, number); }
+  pid_t process() const { return process_; }
+
+  // The exit code, or -1 if a signal ended the program.
+  int wait() {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  static std::string rest_of(int pipe) {
+    std::string text;
+    std::array<char, 4096> bytes{};
+    for (ssize_t n = 0; (n = ::read(pipe, bytes.data(), bytes.size())) > 0;) {
+      text.append(bytes.data(), static_cast<std::size_t>(n));
+    }
+    return text;
+  }
+
+  pid_t process_ = 0;
+  int out_ = -1;
+  int err_ = -1;
+};
+
+// The port in "listening on 127.0.0.1:PORT (1 maps)".
+std::uint16_t port_in(const std::string& line) {
+  const std::size_t colon = line.rfind(':');
+  return static_cast<std::uint16_t>(std::stoi(line.substr(colon + 1)));
+}
+
+TEST(ProgramTest, HelpTeaches) {
+  Program program({"--help"});
+  EXPECT_THAT(program.output(),
+              AllOf(HasSubstr("--maps"), HasSubstr("--listen"), HasSubstr("--threads"),
+                    HasSubstr("--config"), HasSubstr("Examples:"), HasSubstr("Exit codes:")));
+  EXPECT_EQ(program.wait(), 0);
+}
+
+TEST(ProgramTest, VersionIsOneLine) {
+  Program program({"--version"});
+  EXPECT_THAT(program.output(), MatchesRegex("milepost-server [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_EQ(program.wait(), 0);
+}
+
+// One line on standard error and exit code 2.
+void expect_wrong_call(const std::vector<std::string>& arguments, const std::string& what) {
+  Program program(arguments);
+  const std::string error = program.error();
+  EXPECT_THAT(error, AllOf(StartsWith("milepost-server: "), HasSubstr(what), HasSubstr("--help")));
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+  EXPECT_EQ(program.wait(), 2) << what;
+}
+
+TEST(ProgramTest, WrongCallsExitWith2) {
+  expect_wrong_call({}, "--maps");
+  expect_wrong_call({"--maps", "."}, "--listen");
+  expect_wrong_call({"--maps", ".", "--listen", "127.0.0.1:0", "--colour"}, "--colour");
+  expect_wrong_call({"--maps", ".", "--listen", "127.0.0.1:0", "stray"}, "stray");
+  expect_wrong_call({"--maps", ".", "--listen", "127.0.0.1:0", "--threads", "0"}, "--threads");
+  expect_wrong_call({"--maps", ".", "--listen", "127.0.0.1:0", "--threads", "two"}, "--threads");
+  for (const char* listen : {"8080", "127.0.0.1", "127.0.0.1:", ":80", "127.0.0.1:65536", "::1:80",
+                             "127.0.0.1:-1", "127.0.0.1:80x"}) {
+    expect_wrong_call({"--maps", ".", "--listen", listen}, std::string("--listen ") + listen);
+  }
+  expect_wrong_call({"--config", "/nowhere/server.toml"}, "/nowhere/server.toml");
+}
+
+class ProgramWithMapTest : public testing::Test {
+ protected:
+  ProgramWithMapTest() { write_town(maps_.path() / "town.map"); }
+
+  std::string config(const std::string& text) const {
+    const auto file = other_.path() / "server.toml";
+    std::ofstream(file) << text;
+    return file;
+  }
+
+  TemporaryFolder maps_;
+  TemporaryFolder other_;
+};
+
+TEST_F(ProgramWithMapTest, ServesUntilSigterm) {
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--threads", "2"});
+  const std::string line = program.line();
+  EXPECT_THAT(line, MatchesRegex("listening on 127\\.0\\.0\\.1:[0-9]+ \\(1 maps\\)"));
+  EXPECT_THAT(fetch(port_in(line), "/v1/maps").body, HasSubstr("town"));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_THAT(program.error(), AllOf(HasSubstr("\"GET /v1/maps\" 200"), HasSubstr("SIGTERM")));
+}
+
+TEST_F(ProgramWithMapTest, StopsOnSigintWithAnOpenConnection) {
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"});
+  Connection idle(port_in(program.line()));
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait(), 0);
+}
+
+TEST_F(ProgramWithMapTest, ConfigurationFileHasTheOptionsAsKeys) {
+  Program program({"--config", config("maps = \"" + maps_.path().string() +
+                                      "\"\nlisten = \"127.0.0.1:0\"\nthreads = 1\n")});
+  EXPECT_EQ(fetch(port_in(program.line()), "/healthz").status, 200);
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+}
+
+TEST_F(ProgramWithMapTest, UnknownKeyIsAWrongCall) {
+  expect_wrong_call(
+      {"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--config", config("colour = \"red\"\n")},
+      "colour");
+  expect_wrong_call({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--config",
+                     config("threads = \"many\"\n")},
+                    "threads");
+}
+
+// One line on standard error and exit code 1.
+void expect_failure(const std::vector<std::string>& arguments, const std::string& what) {
+  Program program(arguments);
+  EXPECT_EQ(program.output(), "");
+  const std::string error = program.error();
+  EXPECT_THAT(error, AllOf(StartsWith("milepost-server: "), HasSubstr(what), HasSubstr("; ")));
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+  EXPECT_EQ(program.wait(), 1);
+}
+
+TEST_F(ProgramWithMapTest, WhatCannotBeServedExitsWith1) {
+  expect_failure({"--maps", other_.path() / "none", "--listen", "127.0.0.1:0"},
+                 "none: there is no such directory");
+  expect_failure({"--maps", maps_.path(), "--listen", "192.0.2.1:0"},
+                 "192.0.2.1:0: cannot be listened on");
+  expect_failure({"--maps", maps_.path(), "--listen", "localhost:0"}, "address localhost");
+  std::filesystem::resize_file(maps_.path() / "town.map", 4096);
+  expect_failure({"--maps", maps_.path(), "--listen", "127.0.0.1:0"}, "town.map");
+}
+
+// The most memory that a process has used so far.
+long peak_kb(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return std::stol(line.substr(6));
+  }
+  return -1;
+}
+
+TEST_F(ProgramWithMapTest, MemoryDoesNotGrowWithTheRange) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer keeps freed memory";
+#endif
+  constexpr long kTileKb = 16'000;
+  const TownMap town = write_town(maps_.path() / "town.map", kTileKb * 1000);
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--threads", "1"});
+  const std::uint16_t port = port_in(program.line());
+  const std::string tiles = "/v1/maps/town/builds/" + town.build + "/segments/s1/tiles";
+  EXPECT_EQ(fetch(port, tiles + "/tracklets/3").body.size(), town.frames[3].size());
+  const long after_one_kb = peak_kb(program.process());
+  EXPECT_TRUE(fetch(port, tiles + "?layer=tracklets&from_m=0&to_m=inf").whole);
+  EXPECT_GT(after_one_kb, 0);
+  EXPECT_LT(peak_kb(program.process()), after_one_kb + 3 * kTileKb / 2);  // all four would be + 3
+}
+
+TEST_F(ProgramWithMapTest, OtherFilesAreNamedInTheLog) {
+  std::ofstream(maps_.path() / "README") << "text";
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"});
+  EXPECT_THAT(program.line(), HasSubstr("(1 maps)"));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_THAT(program.error(), HasSubstr("README: is no milepost map and is skipped"));
+}
+
+}  // namespace
+}  // namespace milepost::server

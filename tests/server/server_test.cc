@@ -1,0 +1,421 @@
+#include "server/server.h"
+
+#include <gmock/gmock.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <atomic>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "schema/store/sqlite.h"
+#include "tests/server/connection.h"
+#include "tests/server/test_map.h"
+
+namespace milepost::server {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class ServerTest : public testing::Test {
+ protected:
+  ServerTest() { spdlog::set_level(spdlog::level::off); }
+
+  void start(std::size_t frame_bytes = 1000, const ConnectionLimits& limits = {}) {
+    town_ = write_town(folder_.path() / "town.map", frame_bytes);
+    ServerSettings settings;
+    settings.threads = 2;
+    settings.limits = limits;
+    auto server = Server::start(open_catalog(folder_.path(), settings.threads), settings);
+    ASSERT_TRUE(server.ok()) << server.error().line();
+    server_ = std::move(*server);
+    port_ = server_->port();
+  }
+
+  std::string segment_path() const {
+    return "/v1/maps/town/builds/" + town_.build + "/segments/s1";
+  }
+  std::string range_path(int from_m, int to_m) const {
+    return segment_path() + "/tiles?layer=tracklets&from_m=" + std::to_string(from_m) +
+           "&to_m=" + std::to_string(to_m);
+  }
+  // The frames `first` to `last`, one after the other.
+  std::string frames(std::size_t first, std::size_t last) const {
+    std::string bytes;
+    for (std::size_t i = first; i <= last; ++i) bytes += as_text(town_.frames[i]);
+    return bytes;
+  }
+  bool serves() const { return fetch(port_, "/healthz").body == "ok\n"; }
+  // Whether the server, full now, serves again before long.
+  bool becomes_free() const {
+    for (int i = 0; i < 3000; ++i) {
+      if (fetch(port_, "/healthz").status == 200) return true;
+      std::this_thread::sleep_for(10ms);
+    }
+    return false;
+  }
+
+  TemporaryFolder folder_;
+  TownMap town_;
+  std::unique_ptr<Server> server_;
+  std::uint16_t port_ = 0;
+};
+
+TEST_F(ServerTest, AnswersOnTheAddressItNames) {
+  start();
+  EXPECT_EQ(server_->address(), "127.0.0.1:" + std::to_string(port_));
+  const Reply reply = fetch(port_, "/v1/maps");
+  EXPECT_EQ(reply.status, 200);
+  EXPECT_EQ(nlohmann::json::parse(reply.body).at("maps").at(0).at("build"), town_.build);
+  EXPECT_THAT(reply.header("server"), StartsWith("milepost/"));
+  EXPECT_THAT(reply.header("date"), HasSubstr(" GMT"));
+}
+
+TEST_F(ServerTest, SendsRangesAndTilesAsTheyAreStored) {
+  start(300'000);
+  const Reply range = fetch(port_, range_path(70, 130));
+  EXPECT_EQ(range.status, 200);
+  EXPECT_EQ(range.header("content-type"), "application/octet-stream");
+  EXPECT_EQ(range.body, frames(1, 2));
+  EXPECT_EQ(fetch(port_, segment_path() + "/tiles/tracklets/3").body, frames(3, 3));
+  const Reply empty = fetch(port_, range_path(900, 901));
+  EXPECT_EQ(empty.status, 200);
+  EXPECT_EQ(empty.header("content-length"), "0");
+}
+
+TEST_F(ServerTest, KeepsTheConnectionOpen) {
+  start();
+  Connection connection(port_);
+  for (int i = 0; i < 3; ++i) {
+    connection.send_get("/healthz");
+    EXPECT_EQ(connection.receive().body, "ok\n");
+    connection.send_get("/v1/maps/nowhere");
+    EXPECT_EQ(connection.receive().status, 404);
+  }
+}
+
+TEST_F(ServerTest, ClosesWhenTheClientWantsThat) {
+  start();
+  Connection connection(port_);
+  connection.send_get("/healthz", "Connection: close\r\n");
+  const Reply reply = connection.receive();
+  EXPECT_EQ(reply.header("connection"), "close");
+  EXPECT_TRUE(connection.closed());
+}
+
+TEST_F(ServerTest, AnswersPipelinedRequestsInOrder) {
+  start(100'000);
+  Connection connection(port_);
+  const std::string host = " HTTP/1.1\r\nHost: test\r\n\r\n";
+  connection.send("GET " + range_path(0, 200) + host + "GET /healthz" + host + "GET /v1/maps" +
+                  host);
+  EXPECT_EQ(connection.receive().body, frames(0, 3));
+  EXPECT_EQ(connection.receive().body, "ok\n");
+  EXPECT_THAT(connection.receive().body, StartsWith("{\"maps\""));
+}
+
+TEST_F(ServerTest, TakesARequestInSingleBytes) {
+  start();
+  Connection connection(port_);
+  for (const char c : std::string("GET /healthz HTTP/1.1\r\nHost: test\r\n\r\n")) {
+    connection.send({&c, 1});
+  }
+  EXPECT_EQ(connection.receive().body, "ok\n");
+}
+
+TEST_F(ServerTest, HeadHasTheHeaderOfGetAndNoBody) {
+  start();
+  Connection connection(port_);
+  connection.send("HEAD " + range_path(0, 200) + " HTTP/1.1\r\nHost: test\r\n\r\n");
+  const Reply head = connection.receive(true);
+  EXPECT_EQ(head.status, 200);
+  EXPECT_EQ(head.header("content-length"), std::to_string(frames(0, 3).size()));
+  connection.send_get(range_path(0, 200));
+  const Reply get = connection.receive();
+  EXPECT_EQ(get.header("etag"), head.header("etag"));
+  EXPECT_EQ(get.body, frames(0, 3));
+}
+
+TEST_F(ServerTest, KnownTagIs304AndTheConnectionGoesOn) {
+  start();
+  const std::string tag = fetch(port_, range_path(0, 200)).header("etag");
+  Connection connection(port_);
+  connection.send_get(range_path(0, 200), "If-None-Match: \"x\"\r\nIf-None-Match: " + tag + "\r\n");
+  const Reply known = connection.receive();
+  EXPECT_EQ(known.status, 304);
+  EXPECT_EQ(known.header("content-length"), "");
+  EXPECT_EQ(known.header("etag"), tag);
+  connection.send_get("/healthz");
+  EXPECT_EQ(connection.receive().body, "ok\n");
+}
+
+TEST_F(ServerTest, OtherMethodIs405AndItsBodyIsPassedOver) {
+  start();
+  Connection connection(port_);
+  connection.send("POST /v1/maps HTTP/1.1\r\nHost: test\r\nContent-Length: 5\r\n\r\nhello");
+  const Reply reply = connection.receive();
+  EXPECT_EQ(reply.status, 405);
+  EXPECT_EQ(reply.header("allow"), "GET, HEAD");
+  connection.send_get("/healthz");
+  EXPECT_EQ(connection.receive().body, "ok\n");
+}
+
+TEST_F(ServerTest, OldClientIsUnderstood) {
+  start();
+  Connection connection(port_);
+  connection.send("GET /healthz HTTP/1.0\r\n\r\n");
+  EXPECT_EQ(connection.receive().body, "ok\n");
+  EXPECT_TRUE(connection.closed());
+}
+
+// Each of these is answered, and the connection then closed.
+TEST_F(ServerTest, WhatIsNoRequestIsRefused) {
+  start();
+  const std::vector<std::pair<std::string, int>> cases = {
+      {"hello\r\n\r\n", 400},
+      {"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", 400},
+      {"GET / HTTP/9.9\r\nHost: test\r\n\r\n", 400},
+      {"GET /healthz HTTP/1.1\r\n\r\n", 400},
+      {"GET /healthz HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", 400},
+      {"GET /healthz HTTP/1.1\r\nHost test\r\n\r\n", 400},
+      {"GET /healthz HTTP/1.1\r\nHost: test\r\nContent-Length: x\r\n\r\n", 400},
+      {"GET /healthz HTTP/1.1\r\nHost: test\r\nContent-Length: 100000\r\n\r\n", 413},
+      {"GET /healthz HTTP/1.1\r\nHost: test\r\nX: " + std::string(20'000, 'x') + "\r\n\r\n", 431},
+      {"GET /" + std::string(20'000, 'x') + " HTTP/1.1\r\nHost: test\r\n\r\n", 414},
+      {"GET /" + std::string(5'000, 'x') + " HTTP/1.1\r\nHost: test\r\nConnection: close\r\n\r\n",
+       414},
+  };
+  for (const auto& [bytes, status] : cases) {
+    Connection connection(port_);
+    connection.send(bytes);
+    const Reply reply = connection.receive();
+    EXPECT_EQ(reply.status, status) << bytes.substr(0, 60);
+    EXPECT_TRUE(reply.whole);
+    EXPECT_EQ(reply.header("content-type"), "application/problem+json");
+    EXPECT_EQ(reply.header("connection"), "close");
+    EXPECT_TRUE(connection.closed());
+  }
+  EXPECT_TRUE(serves());
+}
+
+TEST_F(ServerTest, RefusedClientMayGoOnSending) {
+  ConnectionLimits limits;
+  limits.linger = 1h;
+  start(1000, limits);
+  Connection connection(port_);
+  connection.send("GET /healthz HTTP/1.1\r\nHost: test\r\nContent-Length: 100000\r\n\r\n");
+  EXPECT_EQ(connection.receive().status, 413);
+  for (int i = 0; i < 10; ++i) {  // a socket that is closed already would answer with a reset
+    EXPECT_TRUE(connection.send(std::string(10'000, 'x')));
+    std::this_thread::sleep_for(5ms);
+  }
+}
+
+TEST_F(ServerTest, HalfARequestIsClosedInTime) {
+  ConnectionLimits limits;
+  limits.request = 200ms;
+  start(1000, limits);
+  Connection connection(port_);
+  connection.send("GET /healthz HTTP/1.1\r\nHo");
+  EXPECT_TRUE(connection.closed());
+  EXPECT_TRUE(serves());
+}
+
+TEST_F(ServerTest, DrippingRequestIsClosedInTime) {
+  ConnectionLimits limits;
+  limits.request = 300ms;
+  start(1000, limits);
+  Connection connection(port_);
+  connection.send("GET /healthz HTTP/1.1\r\n");
+  // A byte every 20 ms would keep a limit on silence from ever running out.
+  bool open = true;
+  for (int i = 0; i < 3000 && open; ++i) {
+    open = connection.send("x");
+    std::this_thread::sleep_for(20ms);
+  }
+  EXPECT_FALSE(open);
+}
+
+TEST_F(ServerTest, SilentConnectionIsClosedInTime) {
+  ConnectionLimits limits;
+  limits.idle = 200ms;
+  start(1000, limits);
+  Connection connection(port_);
+  connection.send_get("/healthz");
+  EXPECT_EQ(connection.receive().body, "ok\n");
+  EXPECT_TRUE(connection.closed());
+}
+
+TEST_F(ServerTest, ClientThatStopsReadingIsBrokenOff) {
+  ConnectionLimits limits;
+  limits.stall = 300ms;
+  limits.connections = 1;
+  start(16'000'000, limits);
+  Connection connection(port_, 4096);
+  connection.send_get(range_path(0, 200));
+  EXPECT_EQ(connection.read(8), "HTTP/1.1");
+  EXPECT_TRUE(becomes_free());  // the only place is taken until the server gives it up
+  EXPECT_LT(connection.read(100'000'000).size(), frames(0, 3).size());
+}
+
+TEST_F(ServerTest, ManyClientsAtOnceGetTheirBytes) {
+  start(200'000);
+  const std::string all = frames(0, 3);
+  const std::string middle = frames(1, 2);
+  std::atomic<int> good = 0;
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 16; ++i) {
+    clients.emplace_back([&, i] {
+      Connection connection(port_);
+      for (int request = 0; request < 5; ++request) {
+        const bool whole = (i + request) % 2 == 0;
+        connection.send_get(whole ? range_path(0, 200) : range_path(70, 130));
+        if (connection.receive().body == (whole ? all : middle)) ++good;
+      }
+    });
+  }
+  for (auto& client : clients) client.join();
+  EXPECT_EQ(good, 16 * 5);
+}
+
+TEST_F(ServerTest, ClientThatLeavesInTheMiddleDoesNoHarm) {
+  start(4'000'000);
+  for (int i = 0; i < 10; ++i) {
+    Connection connection(port_, 4096);
+    connection.send_get(range_path(0, 200));
+    EXPECT_EQ(connection.read(1000).size(), 1000U);
+  }
+  EXPECT_EQ(fetch(port_, range_path(0, 10)).body, frames(0, 0));
+}
+
+TEST_F(ServerTest, TooManyConnectionsAreTurnedAwayAndLaterServed) {
+  ConnectionLimits limits;
+  limits.connections = 2;
+  start(1000, limits);
+  {
+    Connection first(port_);
+    Connection second(port_);
+    for (Connection* connection : {&first, &second}) {  // an answer shows that it is counted
+      connection->send_get("/healthz");
+      EXPECT_EQ(connection->receive().status, 200);
+    }
+    Connection third(port_);
+    third.send_get("/healthz");
+    const Reply busy = third.receive();
+    EXPECT_EQ(busy.status, 503);
+    EXPECT_EQ(busy.header("retry-after"), "1");
+    EXPECT_EQ(busy.header("content-type"), "application/problem+json");
+    EXPECT_EQ(busy.header("connection"), "close");
+    EXPECT_TRUE(third.closed());
+    first.send_get("/healthz");
+    EXPECT_EQ(first.receive().status, 200);
+  }
+  EXPECT_TRUE(becomes_free());
+}
+
+TEST_F(ServerTest, AcceptingGoesOnAfterErrors) {
+  start();
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  Connection connection;
+  // The client's socket is there; no further one can be, so the server cannot accept.
+  rlimit none = before;
+  none.rlim_cur = 3;
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  const bool connected = connection.connect(port_);
+  std::this_thread::sleep_for(300ms);
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  ASSERT_TRUE(connected);
+  connection.send_get("/healthz");
+  EXPECT_EQ(connection.receive().status, 200);
+}
+
+// Damages the stored frame of tile `index` in the file that the server has open.
+void damage_tile(const std::filesystem::path& file, int index) {
+  auto database = sqlite::Database::open(file, sqlite::Access::read_write);
+  const Status damaged = database->execute(
+      "UPDATE frames SET frame = zeroblob(length(frame)) WHERE id = (SELECT frame FROM tiles WHERE "
+      "layer = 'tracklets' AND number = " +
+      std::to_string(index) + ")");
+  ASSERT_TRUE(damaged.ok());
+}
+
+TEST_F(ServerTest, DamagedFirstTileIs500) {
+  start(100'000);
+  damage_tile(folder_.path() / "town.map", 1);
+  const Reply reply = fetch(port_, range_path(70, 130));
+  EXPECT_EQ(reply.status, 500);
+  EXPECT_EQ(reply.header("content-type"), "application/problem+json");
+  EXPECT_TRUE(reply.whole);
+  EXPECT_TRUE(serves());
+}
+
+TEST_F(ServerTest, DamagedLaterTileBreaksTheAnswerOff) {
+  start(100'000);
+  damage_tile(folder_.path() / "town.map", 2);
+  const Reply reply = fetch(port_, range_path(0, 200));
+  EXPECT_EQ(reply.status, 200);
+  EXPECT_FALSE(reply.whole);
+  EXPECT_EQ(reply.body, frames(0, 1));
+  EXPECT_TRUE(serves());
+}
+
+TEST_F(ServerTest, StopEndsIdleConnectionsAtOnce) {
+  ConnectionLimits limits;
+  limits.drain = 1h;
+  start(1000, limits);
+  Connection connection(port_);
+  connection.send_get("/healthz");
+  EXPECT_EQ(connection.receive().status, 200);
+  server_->stop();
+  EXPECT_TRUE(connection.closed());
+  EXPECT_THROW(Connection late(port_), std::runtime_error);
+  server_->stop();
+}
+
+TEST_F(ServerTest, StopLetsAnAnswerUnderWayEnd) {
+  ConnectionLimits limits;
+  limits.drain = 30s;
+  start(4'000'000, limits);
+  Connection connection(port_, 4096);
+  connection.send_get(range_path(0, 200));
+  EXPECT_EQ(connection.read(4), "HTTP");
+  std::thread stopping([this] { server_->stop(); });
+  const std::string rest = connection.read(100'000'000);
+  stopping.join();
+  EXPECT_TRUE(rest.ends_with(frames(0, 3)));
+}
+
+TEST_F(ServerTest, StopBreaksOffAnAnswerThatDoesNotEnd) {
+  ConnectionLimits limits;
+  limits.drain = 100ms;
+  start(16'000'000, limits);
+  Connection connection(port_, 4096);
+  connection.send_get(range_path(0, 200));
+  EXPECT_EQ(connection.read(4), "HTTP");
+  server_->stop();
+  EXPECT_LT(connection.read(100'000'000).size(), frames(0, 3).size());
+}
+
+TEST_F(ServerTest, AddressInUseIsAnError) {
+  start();
+  ServerSettings settings;
+  settings.port = port_;
+  const auto second = Server::start(open_catalog(folder_.path()), settings);
+  ASSERT_FALSE(second.ok());
+  EXPECT_THAT(second.error().line(), HasSubstr(server_->address() + ": cannot be listened on"));
+}
+
+TEST_F(ServerTest, AddressThatIsNoneIsAnError) {
+  ServerSettings settings;
+  settings.address = "localhost";
+  const auto server = Server::start(open_catalog(folder_.path()), settings);
+  ASSERT_FALSE(server.ok());
+  EXPECT_THAT(server.error().line(), HasSubstr("address localhost: is no IPv4 or IPv6 address"));
+}
+
+}  // namespace
+}  // namespace milepost::server

@@ -1,0 +1,78 @@
+#include "tests/server/test_map.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <random>
+#include <stdexcept>
+
+#include "schema/geo/route_line.h"
+
+namespace milepost::server {
+namespace {
+
+void must(const Status& status) {
+  if (!status) throw std::runtime_error(status.error().line());
+}
+
+// Four vertices, 66.7 m apart, from 49 N 8 E.
+StoredSegment segment(const std::string& id, double north_deg, double east_deg,
+                      std::vector<std::string> successors) {
+  std::vector<GeoPoint> points;
+  for (int i = 0; i < 4; ++i) points.push_back({49 + i * north_deg, 8 + i * east_deg, 110.25});
+  const Result<RouteLine> line = RouteLine::from_vertices(points);
+  StoredSegment stored{id, line->length_m(), {}, std::move(successors)};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    stored.vertices.push_back(
+        {points[i].latitude_deg, points[i].longitude_deg, 110.25, line->along_m()[i]});
+  }
+  return stored;
+}
+
+Bytes arbitrary_bytes(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  Bytes bytes(count);
+  for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+  return bytes;
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "milepost-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes, unsigned seed) {
+  Result<MapWriter> writer = MapWriter::create(file);
+  if (!writer) throw std::runtime_error(writer.error().line());
+  must(writer->set_feature_json(R"({"extractor": "sift", "contrast": 0.04})"));
+  must(writer->add_layer("tracklets", R"({"tile_m": 50})"));
+  must(writer->add_layer("walls", "{}"));
+  must(writer->add_segment(segment("s1", 0.0006, 0, {"s2"})));
+  must(writer->add_segment(segment("s2", 0, 0.0009, {})));
+  TownMap town;
+  const std::vector<AlongRange> ranges = {{0, 60}, {50, 110}, {100, 160}, {150, 200}};
+  for (std::uint32_t i = 0; i < ranges.size(); ++i) {
+    town.frames.push_back(arbitrary_bytes(frame_bytes + i, seed * 100 + i));
+    must(writer->add_tile("s1", "tracklets", i, ranges[i], 10 + i, town.frames.back()));
+  }
+  const Result<std::string> build = writer->finish();
+  if (!build) throw std::runtime_error(build.error().line());
+  town.build = *build;
+  return town;
+}
+
+std::shared_ptr<const Catalog> open_catalog(const std::filesystem::path& folder, unsigned readers) {
+  const auto catalog = Catalog::open(folder, readers, [](const std::string&) {});
+  if (!catalog) throw std::runtime_error(catalog.error().line());
+  return *catalog;
+}
+
+}  // namespace milepost::server

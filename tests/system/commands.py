@@ -1,0 +1,90 @@
+"""What the system tests share: running the programs, and drives to run them on."""
+import csv
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+MAPPER = os.environ.get("MILEPOST_MAPPER", "")
+SERVER = os.environ.get("MILEPOST_SERVER", "")
+CLIENT = os.environ.get("MILEPOST_CLIENT", "")
+STREET = pathlib.Path(os.environ.get("MILEPOST_STREET", ""))  # holds street-map and street-query
+SHARED = pathlib.Path(os.environ.get("MILEPOST_SHARED", ""))  # recorded drives, where there are any
+
+
+def run(*words, timeout=600):
+    """Runs a command to its end and returns it with its output as text."""
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=timeout,
+                          stdin=subprocess.DEVNULL, check=False)
+
+
+class Server:
+    """A tile server on a free port of the loopback address, for a `with` block."""
+
+    def __init__(self, maps):
+        self.maps = maps
+
+    def __enter__(self):
+        self.process = subprocess.Popen([SERVER, "--maps", str(self.maps), "--listen", "127.0.0.1:0"],
+                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        line = self.process.stdout.readline()
+        self.url = "http://" + re.search(r"listening on (\S+)", line).group(1)
+        return self
+
+    def __exit__(self, *_):
+        self.process.send_signal(signal.SIGTERM)
+        self.process.communicate(timeout=30)
+
+
+def rows_of(file):
+    with open(file, newline="") as table:
+        return list(csv.DictReader(table))
+
+
+class CommandTest(unittest.TestCase):
+    """A test with a temporary folder and checks of what commands say."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def expect_done(self, result):
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def expect_refused(self, result, code, *parts):
+        """The command ended with `code` and one line on standard error that holds each part."""
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        for part in parts:
+            self.assertIn(part, result.stderr)
+
+    def copy_of(self, drive, name="drive"):
+        folder = self.folder / name
+        shutil.copytree(drive, folder)
+        return folder
+
+    def build(self, drive, map_file, *words):
+        return run(MAPPER, "build", "--drive", drive, "--map", map_file, *words)
+
+
+def edit_json(file, change):
+    content = json.loads(file.read_text())
+    change(content)
+    file.write_text(json.dumps(content))
+
+
+def edit_lines(file, change):
+    lines = file.read_text().splitlines()
+    change(lines)
+    file.write_text("\n".join(lines) + "\n")
+
+
+def main():
+    sys.exit(unittest.main(verbosity=2))

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Checks #include lines: who may depend on whom (the link line cannot see header-only use).
+
+usage: includes_test.py ROOT      exit code 1 and one line a fault when a rule is broken
+"""
+import re
+import sys
+from pathlib import Path
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+ROOMS = ("schema", "mapper", "server", "client")
+
+FEATURE_TYPES = ["schema/feature/types", "schema/feature/descriptor.h"]
+BASE = "schema/base/"
+COMMAND = "schema/command/"
+
+# Part of the tree (the first that fits) -> parts of the project its files may include.
+MAY_INCLUDE = {
+    "schema/base/": [BASE],
+    "schema/command/": [BASE, COMMAND],
+    "schema/geo/": [BASE, "schema/geo/"],
+    "schema/store/": [BASE, "schema/store/"],
+    "schema/tile/": [BASE, "schema/tile/", *FEATURE_TYPES],
+    "schema/feature/types": [BASE, *FEATURE_TYPES],
+    "schema/feature/": [BASE, "schema/feature/"],
+    "schema/drive/": [BASE, "schema/geo/", "schema/drive/"],
+    "mapper/": ["mapper/", "schema/"],
+    "server/": ["server/", BASE, COMMAND, "schema/store/", "schema/geo/"],
+    "client/cli/": ["client/", "schema/"],
+    "client/main.cc": ["client/", "schema/"],
+    "client/": ["client/", BASE, "schema/command/version.h", "schema/geo/", "schema/store/",
+                "schema/tile/", "schema/feature/"],
+}
+
+# Library -> parts of the tree whose files must not reach it, through no chain of our headers.
+NOT_REACHED = {
+    "opencv2/": [BASE, COMMAND, "schema/geo/", "schema/store/", "schema/tile/", "server/",
+                 *FEATURE_TYPES],
+    "Eigen/": [BASE, COMMAND, "schema/store/", "server/"],
+}
+
+
+def starts_with_any(path, prefixes):
+    return any(path.startswith(prefix) for prefix in prefixes)
+
+
+def includes_of(root, path):
+    """(project includes, other includes) of one file of the tree."""
+    ours, others = [], []
+    for quote, name in INCLUDE.findall((root / path).read_text(encoding="utf-8")):
+        (ours if quote == '"' and name.split("/")[0] in ROOMS else others).append(name)
+    return ours, others
+
+
+def chain_to(library, path, includes):
+    """The shortest chain of files from `path` to a header of the library, or None."""
+    chains, seen = [[path]], {path}
+    while chains:
+        chain = chains.pop(0)
+        ours, others = includes.get(chain[-1], ([], []))
+        for name in others:
+            if name.startswith(library):
+                return chain + [name]
+        for name in ours:
+            if name not in seen:
+                seen.add(name)
+                chains.append(chain + [name])
+    return None
+
+
+def faults_of(root):
+    files = sorted(str(path.relative_to(root)) for room in ROOMS
+                   for path in (root / room).rglob("*") if path.suffix in (".h", ".cc"))
+    includes = {path: includes_of(root, path) for path in files}
+    for path in files:
+        part = next((part for part in MAY_INCLUDE if path.startswith(part)), None)
+        if part is None:
+            yield f"{path}: lies in no room that MAY_INCLUDE of tests/system/includes_test.py names"
+            continue
+        for name in includes[path][0]:
+            if not starts_with_any(name, MAY_INCLUDE[part]):
+                yield f"{path}: includes {name}; {part} may include only {MAY_INCLUDE[part]}"
+        for library, parts in NOT_REACHED.items():
+            chain = chain_to(library, path, includes) if starts_with_any(path, parts) else None
+            if chain:
+                yield f"{path}: reaches {library} through {' -> '.join(chain)}"
+    if not files:
+        yield f"{root}: holds no source file"
+
+
+def main():
+    if len(sys.argv) != 2:
+        print(__doc__, file=sys.stderr)
+        return 2
+    faults = list(faults_of(Path(sys.argv[1])))
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

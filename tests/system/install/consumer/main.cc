@@ -1,0 +1,44 @@
+// A program that has only the installed client: it asks a server that is not there where it is, and
+// must be told so.
+#include <iostream>
+#include <memory>
+
+#include <opencv2/core.hpp>
+
+#include "client/fetch/http_source.h"
+#include "client/localize/localizer.h"
+#include "schema/feature/extractor.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  milepost::HttpSourceSettings server;
+  server.server_url = "http://127.0.0.1:1";  // port 1 is never the one of a tile server
+  server.cache_directory = std::string(argv[1]) + "/cache";
+  server.attempts = 1;
+  auto source = milepost::open_http_source(server);
+  if (!source) {
+    std::cerr << source.error().line() << "\n";
+    return 1;
+  }
+
+  milepost::LocalizerSettings settings;
+  settings.method = milepost::method_named(milepost::kDefaultMethod).value();
+  milepost::Localizer localizer(std::shared_ptr<milepost::MapSource>(std::move(source).value()),
+                                {.width_px = 64, .focal_x_px = 50, .focal_y_px = 50}, settings);
+  milepost::FeatureSet features;
+  localizer.observe({.timestamp_s = 0, .position = {49.0, 8.4, 110}, .sigma_m = 5});
+  const auto fix = localizer.localize(
+      {.timestamp_s = 0,
+       .features =
+           [&](const milepost::FeatureParameters& parameters) -> const milepost::FeatureSet& {
+         const cv::Mat gray(64, 64, CV_8UC1, cv::Scalar(0));
+         features = milepost::FeatureExtractor(parameters).extract(gray);
+         return features;
+       }});
+  if (fix) {
+    std::cerr << "a server that is not there gave a fix\n";
+    return 1;
+  }
+  std::cout << fix.error().line() << "\n";
+  return fix.error().code == milepost::ErrorCode::unavailable ? 0 : 1;
+}

@@ -1,0 +1,141 @@
+"""The whole line: drive -> map -> server -> client over HTTP -> fixes, on the simulated street."""
+import json
+import socket
+
+import commands
+from commands import CLIENT, CommandTest, STREET, Server, rows_of, run
+
+FIX_COLUMNS = ["timestamp_s", "filename", "status", "segment", "along_m", "sigma_m", "latitude_deg",
+               "longitude_deg", "matches", "latency_ms"]
+SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m", "p95_error_m", "frames",
+                "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99"]
+METHODS = ["tracklet-regression", "tracklet-regression-kalman", "milepost"]
+STATUSES = {"initializing", "tracking", "predicted", "lost", "off-map"}
+
+
+class Line(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.maps = self.folder / "maps"
+        self.maps.mkdir()
+        self.map = self.maps / "street.map"
+        self.query = STREET / "street-query"
+        self.fixes = self.folder / "fixes.csv"
+
+    def build_map(self, *words):
+        self.expect_done(self.build(STREET / "street-map", self.map, *words))
+
+    def localize(self, *words):
+        return run(CLIENT, "localize", "--drive", self.query, "--out", self.fixes, *words)
+
+    def over_http(self, url):
+        return ("--server", url, "--cache", self.folder / "cache")
+
+    def expect_fixes(self):
+        rows = rows_of(self.fixes)
+        self.assertEqual(list(rows[0]), FIX_COLUMNS)
+        self.assertEqual([row["filename"] for row in rows],
+                         [row["filename"] for row in rows_of(self.query / "trajectory.csv")])
+        self.assertLessEqual({row["status"] for row in rows}, STATUSES)
+        self.assertGreaterEqual(sum(row["status"] == "tracking" for row in rows), 0.9 * len(rows))
+        return rows
+
+    def test_over_http_as_from_the_file(self):
+        self.build_map()
+        with Server(self.maps) as server:
+            self.expect_done(self.localize(*self.over_http(server.url)))
+        by_http = self.expect_fixes()
+        # With the cache filled and no server any more:
+        self.expect_done(self.localize(*self.over_http(server.url)))
+        by_cache = self.expect_fixes()
+        self.expect_done(self.localize("--map", self.map))
+        by_file = self.expect_fixes()
+        for rows in (by_http, by_cache, by_file):
+            for row in rows:
+                row.pop("latency_ms")
+        self.assertEqual(by_http, by_file)
+        self.assertEqual(by_cache, by_file)
+
+    def test_evaluate(self):
+        self.build_map("--lab")
+        out = self.folder / "results"
+        with Server(self.maps) as server:
+            result = run(CLIENT, "evaluate", "--drive", self.query, "--out", out, "--method", *METHODS,
+                         *self.over_http(server.url))
+        self.expect_done(result)
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertEqual([entry["method"] for entry in summary], METHODS)
+        frames = rows_of(self.query / "trajectory.csv")
+        for entry in summary:
+            self.assertLessEqual(set(SUMMARY_KEYS), set(entry))
+            self.assertEqual(entry["frames"], len(frames))
+            self.assertGreaterEqual(entry["localized_frames"], 0.9 * len(frames))
+            self.assertGreater(entry["map_kb_per_m"], 0.1)
+            self.assertLess(entry["mean_error_m"], 1.0)
+            self.check_against_rows(entry, rows_of(out / f"fixes-{entry['method']}.csv"))
+        self.assertLess(summary[2]["mean_error_m"], summary[0]["mean_error_m"])
+        report = (out / "report.html").read_text()
+        self.assertIn("milepost", report)
+        self.assertNotRegex(report, r"(src|href)=\"http")  # self-contained
+
+    def check_against_rows(self, entry, rows):
+        self.assertEqual(list(rows[0]), FIX_COLUMNS + ["truth_along_m", "error_m"])
+        errors = []
+        for row in rows:
+            if not row["error_m"]:
+                continue
+            self.assertAlmostEqual(float(row["along_m"]) - float(row["truth_along_m"]), float(row["error_m"]), delta=2e-4)
+            errors.append(abs(float(row["error_m"])))
+        self.assertEqual(len(errors), entry["localized_frames"])
+        self.assertAlmostEqual(sum(errors) / len(errors), entry["mean_error_m"], delta=1e-3)
+        self.assertAlmostEqual(max(errors), entry["max_error_m"], delta=1e-3)
+
+    def test_refuses_methods_that_the_map_does_not_serve(self):
+        self.build_map()
+        result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
+                     "--method", "tracklet-regression")
+        self.expect_refused(result, 1, "tracklets-scale", "--lab")
+        result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
+                     "--method", "magic")
+        self.expect_refused(result, 1, "'magic' is no method", "milepost")
+
+    def test_no_server(self):
+        with socket.socket() as unused:
+            unused.bind(("127.0.0.1", 0))
+            port = unused.getsockname()[1]
+        result = self.localize(*self.over_http(f"http://127.0.0.1:{port}"))
+        self.expect_refused(result, 1, f"http://127.0.0.1:{port}/v1/segments")
+        self.assertFalse(self.fixes.exists())
+
+    def test_a_file_that_is_no_map(self):
+        self.map.write_text("not a map")
+        self.expect_refused(self.localize("--map", self.map), 1, "street.map")
+        self.map.unlink()
+        self.expect_refused(self.localize("--map", self.map), 1, "street.map", "no such file")
+
+    def test_a_place_without_a_map(self):
+        self.build_map()
+        query = self.copy_of(self.query, "elsewhere")
+        def move(drive):
+            drive["origin"]["latitude_deg"] = 48.0
+        commands.edit_json(query / "drive.json", move)
+        lines = (query / "gps.csv").read_text().splitlines()
+        moved = [lines[0]] + [",".join([c[0], f"{float(c[1]) - 1:.8f}", *c[2:]]) for c in (l.split(",") for l in lines[1:])]
+        (query / "gps.csv").write_text("\n".join(moved) + "\n")
+        self.query = query
+        self.expect_done(self.localize("--map", self.map))
+        rows = rows_of(self.fixes)
+        self.assertEqual({row["status"] for row in rows} - {"off-map", "initializing"}, set())
+        self.assertEqual({row["along_m"] for row in rows}, {""})
+
+    def test_wrong_calls(self):
+        self.expect_refused(run(CLIENT), 2, "a command is missing")
+        self.expect_refused(run(CLIENT, "localise"), 2, "'localise' is no command")
+        self.expect_refused(self.localize(), 2, "--server or --map")
+        self.expect_refused(self.localize("--server", "http://127.0.0.1:1"), 2, "--cache")
+        self.expect_refused(self.localize("--map", "a", "--server", "b", "--cache", "c"), 2, "--map")
+        for words in (("--help",), ("localize", "--help"), ("evaluate", "--help"), ("--version",)):
+            self.expect_done(run(CLIENT, *words))
+
+
+commands.main() if __name__ == "__main__" else None
