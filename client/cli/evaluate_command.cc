@@ -115,7 +115,7 @@ int evaluate(const std::string& program, const EvaluateOptions& options) {
   if (!report) return fail(program, report.error());
   const Status written = write_evaluation(options.out, evaluations, *report);
   if (!written.ok()) return fail(program, written.error());
-  std::cout << summary_table(evaluations);
+  std::cout << summary_text(evaluations);
   return replay->outage ? fail(program, *replay->outage) : kExitDone;
 }
 

@@ -75,7 +75,7 @@ std::string summary_json(const std::vector<MethodEvaluation>& methods) {
   return list.dump(1) + "\n";
 }
 
-std::string summary_table(const std::vector<MethodEvaluation>& methods) {
+std::string summary_text(const std::vector<MethodEvaluation>& methods) {
   std::array<char, 256> line{};
   std::snprintf(line.data(), line.size(), "%-28s %7s %7s %7s %7s %11s %8s %7s %7s\n", "method",
                 "mean m", "std m", "p95 m", "max m", "localized", "in 2 sd", "kB/m", "ms p50");

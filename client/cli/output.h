@@ -15,6 +15,6 @@ std::string evaluated_fixes_csv(const std::vector<EvaluatedFix>& fixes);
 // summary.json: a list, one object a method. Figures that are not known are null.
 std::string summary_json(const std::vector<MethodEvaluation>& methods);
 // The same for a person, as an aligned table.
-std::string summary_table(const std::vector<MethodEvaluation>& methods);
+std::string summary_text(const std::vector<MethodEvaluation>& methods);
 
 }  // namespace milepost

@@ -194,8 +194,7 @@ class CurlTransport : public Transport {
     curl_easy_setopt(handle, CURLOPT_NOSIGNAL, 1L);  // timeouts without signals: threads
     curl_easy_setopt(handle, CURLOPT_USERAGENT, user_agent.c_str());  // copied
     curl_easy_setopt(handle, CURLOPT_ERRORBUFFER, message);
-    curl_easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https");
-    curl_easy_setopt(handle, CURLOPT_REDIR_PROTOCOLS_STR, "http,https");
+    curl_easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https");  // redirects too
     curl_easy_setopt(handle, CURLOPT_FOLLOWLOCATION, 1L);
     curl_easy_setopt(handle, CURLOPT_MAXREDIRS, kMaxRedirects);
     const double connect_ms = std::max(1.0, std::ceil(settings_.connect_timeout_s * 1000));

@@ -26,7 +26,7 @@ double phase(double value, double period) { return value - std::floor(value / pe
 }  // namespace
 
 Ground::Ground(Centreline line, double from_m, double to_m, std::uint64_t seed)
-    : line_(std::move(line)), seed_(seed), crossing_m_(0) {
+    : line_(std::move(line)), seed_(seed) {
   cv::RNG random(seed);
   crossing_m_ = from_m + (to_m - from_m) * random.uniform(0.3, 0.5);
   for (double along = from_m; along < to_m; along += random.uniform(2.0, 7.0)) {

@@ -38,7 +38,7 @@ class Ground {
 
   Centreline line_;
   std::uint64_t seed_;
-  double crossing_m_;
+  double crossing_m_ = 0;  // where the zebra crossing begins
   std::vector<Repair> repairs_;
   std::vector<Manhole> manholes_;
 };

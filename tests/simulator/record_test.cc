@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <fstream>
@@ -10,30 +9,14 @@
 #include <sstream>
 
 #include "schema/drive/frame_image.h"
-#include "schema/geo/route_line.h"
+#include "tests/support/temp_folder.h"
 
 namespace milepost::simulator {
 namespace fs = std::filesystem;
 namespace {
 
+using milepost::testing::TempFolder;
 using ::testing::HasSubstr;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "milepost-street-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 StreetPlan short_plan(std::uint64_t seed) {
   StreetPlan plan;
@@ -62,7 +45,7 @@ std::map<std::string, std::string> content_of(const fs::path& folder) {
 }
 
 std::map<std::string, std::string> recorded(const StreetPlan& plan, const RunPlan& run) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const Status status = record(make_street(plan), run, folder.path());
   EXPECT_TRUE(status.ok()) << status.error().line();
   return content_of(folder.path());
@@ -82,7 +65,7 @@ TEST(Record, IsReadBackAsADrive) {
   const StreetPlan& plan = short_street().plan;
   for (const RunPlan& run : {map_run(plan), query_run(plan)}) {
     SCOPED_TRACE(run.name);
-    const TemporaryFolder folder;
+    const TempFolder folder;
     ASSERT_TRUE(record(short_street(), run, folder.path()).ok());
     const Result<Drive> drive = read_drive(folder.path());
     ASSERT_TRUE(drive.ok()) << drive.error().line();
@@ -98,7 +81,7 @@ TEST(Record, IsReadBackAsADrive) {
 }
 
 TEST(Record, MapFramesStandTwoMetresApart) {
-  const TemporaryFolder folder;
+  const TempFolder folder;
   ASSERT_TRUE(record(short_street(), map_run(short_street().plan), folder.path()).ok());
   const Result<Drive> drive = read_drive(folder.path());
   ASSERT_TRUE(drive.ok()) << drive.error().line();
@@ -114,7 +97,7 @@ TEST(Record, MapFramesStandTwoMetresApart) {
 TEST(Record, SensorsSayRoughlyWhatWasDriven) {
   RunPlan run = query_run(short_street().plan);
   run.to_m = 12;
-  const TemporaryFolder folder;
+  const TempFolder folder;
   ASSERT_TRUE(record(short_street(), run, folder.path()).ok());
   const Result<Drive> drive = read_drive(folder.path());
   ASSERT_TRUE(drive.ok()) << drive.error().line();
@@ -131,7 +114,7 @@ TEST(Record, SensorsSayRoughlyWhatWasDriven) {
 
 TEST(Record, ReportsProgressFrameByFrame) {
   const RunPlan run = map_run(short_street().plan);
-  const TemporaryFolder folder;
+  const TempFolder folder;
   std::vector<std::size_t> seen;
   const Progress progress = [&](std::size_t index, std::size_t count) {
     EXPECT_EQ(count, 5U);
@@ -145,7 +128,7 @@ TEST(Record, RefusesARunThatIsNoDrive) {
   const StreetPlan plan = short_plan(1);
   RunPlan run = map_run(plan);
   run.spacing_m = 0;
-  const TemporaryFolder folder;
+  const TempFolder folder;
   const Status status = record({plan, Centreline(0, 0), {}}, run, folder.path());
   ASSERT_FALSE(status.ok());
   EXPECT_THAT(status.error().line(), HasSubstr("street-map: the run has no way, spacing or speed"));
@@ -153,7 +136,7 @@ TEST(Record, RefusesARunThatIsNoDrive) {
 
 TEST(Record, SaysWhereItCannotWrite) {
   const StreetPlan plan = short_plan(1);
-  const TemporaryFolder folder;
+  const TempFolder folder;
   std::ofstream(folder.path() / "file") << "x";
   const Status status =
       record({plan, Centreline(0, 0), {}}, map_run(plan), folder.path() / "file" / "drive");

@@ -126,8 +126,8 @@ class Visibility {
   explicit Visibility(const Camera& camera)
       : columns_(camera.width_px * kSamplesPerSide),
         rows_(camera.height_px * kSamplesPerSide),
-        front_(columns_ * rows_, kSky),
-        inverse_depth_(columns_ * rows_, 0) {}
+        front_(index_of(rows_, 0), kSky),
+        inverse_depth_(front_.size(), 0) {}
 
   void add(const SeenSurface& seen, std::int32_t index) {
     const cv::Rect2d& box = seen.bounds_px;
@@ -143,7 +143,7 @@ class Visibility {
   }
 
   std::array<std::int32_t, kSamplesPerSide * kSamplesPerSide> in_front(int x_px, int y_px) const {
-    const int at = y_px * kSamplesPerSide * columns_ + x_px * kSamplesPerSide;
+    const std::size_t at = index_of(y_px * kSamplesPerSide, x_px * kSamplesPerSide);
     return {front_[at], front_[at + 1], front_[at + columns_], front_[at + columns_ + 1]};
   }
 
@@ -154,11 +154,15 @@ class Visibility {
     return static_cast<int>(std::clamp((pixel + 0.5) * kSamplesPerSide, -1e6, 1e6));
   }
 
+  std::size_t index_of(int row, int column) const {
+    return static_cast<std::size_t>(row) * columns_ + column;
+  }
+
   void add_sample(const SeenSurface& seen, std::int32_t index, int row, int column) {
     const double x = pixel(column);
     const double y = pixel(row);
     const double inverse_depth = seen.inverse_depth.at(x, y);
-    const int at = row * columns_ + column;
+    const std::size_t at = index_of(row, column);
     if (inverse_depth <= inverse_depth_[at] || inverse_depth > 1 / kNearM) return;
     const double across = seen.across_over_depth.at(x, y);
     const double down = seen.down_over_depth.at(x, y);

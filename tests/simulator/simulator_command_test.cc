@@ -1,18 +1,16 @@
 // The program milepost-simulator, run as a user runs it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <string>
 
 #include "schema/drive/drive.h"
+#include "tests/support/temp_folder.h"
 
 namespace milepost {
-namespace fs = std::filesystem;
 namespace {
 
 using ::testing::HasSubstr;
@@ -35,14 +33,13 @@ Outcome run_simulator(const std::string& arguments) {
 }
 
 TEST(SimulatorCommand, WritesBothDrivesAndSaysNothingInAPipe) {
-  std::string folder = (fs::temp_directory_path() / "milepost-street-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
-  const Outcome outcome = run_simulator("--out " + folder + " --length-m 10 --seed 7 --query");
+  const testing::TempFolder folder;
+  const Outcome outcome =
+      run_simulator("--out " + folder.path().string() + " --length-m 10 --seed 7 --query");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.output, "");
-  EXPECT_TRUE(read_drive(fs::path(folder) / "street-map").ok());
-  EXPECT_TRUE(read_drive(fs::path(folder) / "street-query").ok());
-  fs::remove_all(folder);
+  EXPECT_TRUE(read_drive(folder / "street-map").ok());
+  EXPECT_TRUE(read_drive(folder / "street-query").ok());
 }
 
 TEST(SimulatorCommand, Teaches) {

@@ -75,7 +75,9 @@ class Line(CommandTest):
             self.check_against_rows(entry, rows_of(out / f"fixes-{entry['method']}.csv"))
         self.assertLess(summary[2]["mean_error_m"], summary[0]["mean_error_m"])
         report = (out / "report.html").read_text()
-        self.assertIn("milepost", report)
+        self.assertEqual(report.count("<table"), 1)
+        for method in METHODS:
+            self.assertIn(f"<th scope=\"row\">{method}", report)
         self.assertNotRegex(report, r"(src|href)=\"http")  # self-contained
 
     def check_against_rows(self, entry, rows):

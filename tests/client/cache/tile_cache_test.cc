@@ -252,14 +252,14 @@ TEST_F(TileCacheTest, SeveralConnectionsShareOneFile) {
 
 TEST_F(TileCacheTest, DocumentsOfTheBuildUsedLastAreListed) {
   const auto cache = open();
-  cache->store(CacheKey::segment_document("town", "new", "s1"), as_bytes("new s1"));
-  cache->store(CacheKey::segment_document("town", "new", "s2"), as_bytes("new s2"));
+  cache->store(CacheKey::segment_document("town", "build 2", "s1"), as_bytes("new s1"));
   ++now_s_;
-  cache->store(CacheKey::segment_document("town", "old", "s1"), as_bytes("old s1"));
+  cache->store(CacheKey::segment_document("town", "build 1", "s1"), as_bytes("old s1"));
   cache->store(CacheKey::segment_document("village", "only", "s1"), as_bytes("village s1"));
-  cache->store(CacheKey::map_document("town", "new"), as_bytes("the map itself"));
+  cache->store(CacheKey::map_document("town", "build 2"), as_bytes("the map itself"));
   ++now_s_;
-  cache->touch(CacheKey::segment_document("town", "new", "s1"));
+  cache->touch(CacheKey::segment_document("town", "build 2", "s1"));
+  cache->store(CacheKey::segment_document("town", "build 2", "s2"), as_bytes("new s2"));
   std::vector<std::string> contents;
   for (const CachedDocument& document : cache->segment_documents()) {
     contents.push_back(document.content);

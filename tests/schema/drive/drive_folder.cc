@@ -1,7 +1,6 @@
 #include "tests/schema/drive/drive_folder.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <sstream>
@@ -37,10 +36,7 @@ constexpr const char* kTrajectory =
 }  // namespace
 
 DriveFolder::DriveFolder() {
-  std::string pattern = (fs::temp_directory_path() / "milepost-drive-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-  path_ = pattern;
-  fs::create_directory(path_ / "frames");
+  fs::create_directory(folder_ / "frames");
   cv::Mat image(12, 16, CV_8UC3);
   for (const char* name : {"a.png", "b.png", "c.png", "d.png"}) {
     cv::randu(image, 0, 255);
@@ -50,18 +46,13 @@ DriveFolder::DriveFolder() {
   write("trajectory.csv", kTrajectory);
 }
 
-DriveFolder::~DriveFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 void DriveFolder::write(const std::string& name, const std::string& content) const {
-  std::ofstream(path_ / name, std::ios::binary) << content;
+  std::ofstream(folder_ / name, std::ios::binary) << content;
 }
 
 std::string DriveFolder::read(const std::string& name) const {
   std::ostringstream content;
-  content << std::ifstream(path_ / name, std::ios::binary).rdbuf();
+  content << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
   return content.str();
 }
 

@@ -4,17 +4,16 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/temp_folder.h"
+
 namespace milepost {
 
 class DriveFolder {
  public:
   DriveFolder();  // four local frames of 16x12 pixels, 2 m and 0.2 s apart, driven north
-  ~DriveFolder();
-  DriveFolder(const DriveFolder&) = delete;
-  DriveFolder& operator=(const DriveFolder&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  const std::filesystem::path& path() const { return folder_.path(); }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
   void write(const std::string& name, const std::string& content) const;
   std::string read(const std::string& name) const;
@@ -25,7 +24,7 @@ class DriveFolder {
   void replace_line(const std::string& name, std::size_t line, const std::string& text) const;
 
  private:
-  std::filesystem::path path_;
+  testing::TempFolder folder_;
 };
 
 }  // namespace milepost

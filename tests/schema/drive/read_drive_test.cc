@@ -7,8 +7,6 @@
 namespace milepost {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -67,7 +65,7 @@ TEST(ReadDrive, BringsHeadingsIntoOneTurn) {
 
 TEST(ReadDrive, TakesGeographicPositionsAsTheyAre) {
   const DriveFolder folder;
-  folder.replace("drive.json", "\"local\"", "\"geographic\"");
+  folder.replace("drive.json", R"("local")", R"("geographic")");
   folder.write("trajectory.csv",
                "filename,timestamp_s,latitude_deg,longitude_deg,altitude_m,heading_deg\n"
                "a.png,1,49.01,8.43,114,344\n"
@@ -143,35 +141,35 @@ TEST_P(BadDescriptions, AreRefused) {
 }
 
 const BadDescription kBadDescriptions[] = {
-    {"\"north\",", "\"north\"", "parse error at line 3, column 10: "},
-    {"\"fair\"", "1e999", "number overflow"},
-    {"\"name\": \"north\",", "", "name is missing; "},
-    {"\"north\"", "7", "name is not a string; "},
-    {"\"camera\": {", "\"camera\": 5, \"other\": {", "camera is not an object; "},
-    {"\"width_px\": 16, ", "", "camera.width_px is missing; "},
-    {"\"height_px\": 12", "\"height_px\": 12.5", "camera.height_px is not a whole number; "},
-    {"\"width_px\": 16", "\"width_px\": 0", "camera.width_px is 0; "},
-    {"\"width_px\": 16", "\"width_px\": 20001", "camera.width_px is 20001; "},
-    {"\"height_px\": 12", "\"height_px\": -12", "camera.height_px is -12; "},
-    {"\"height_px\": 12", "\"height_px\": 99999999999", "camera.height_px is "},
+    {R"("north",)", R"("north")", "parse error at line 3, column 10: "},
+    {R"("fair")", "1e999", "number overflow"},
+    {R"("name": "north",)", "", "name is missing; "},
+    {R"("north")", "7", "name is not a string; "},
+    {R"("camera": {)", R"("camera": 5, "other": {)", "camera is not an object; "},
+    {R"("width_px": 16, )", "", "camera.width_px is missing; "},
+    {R"("height_px": 12)", R"("height_px": 12.5)", "camera.height_px is not a whole number; "},
+    {R"("width_px": 16)", R"("width_px": 0)", "camera.width_px is 0; "},
+    {R"("width_px": 16)", R"("width_px": 20001)", "camera.width_px is 20001; "},
+    {R"("height_px": 12)", R"("height_px": -12)", "camera.height_px is -12; "},
+    {R"("height_px": 12)", R"("height_px": 99999999999)", "camera.height_px is "},
     {"[20.5, 21.5]", "20.5", "camera.focal_px is not two numbers; "},
     {"[20.5, 21.5]", "[20.5]", "camera.focal_px is not two numbers; "},
     {"[20.5, 21.5]", "[20.5, 21.5, 1]", "camera.focal_px is not two numbers; "},
-    {"[20.5, 21.5]", "[20.5, \"x\"]", "camera.focal_px is not two numbers; "},
+    {"[20.5, 21.5]", R"([20.5, "x"])", "camera.focal_px is not two numbers; "},
     {"[20.5, 21.5]", "[20.5, 0]", "camera.focal_px holds 0; "},
     {"[20.5, 21.5]", "[-20.5, 21.5]", "camera.focal_px holds -20.5; "},
-    {"\"principal_px\"", "\"principle_px\"", "camera.principal_px is missing; "},
-    {"\"frame\": \"local\",", "", "frame is missing; "},
-    {"\"local\"", "\"utm\"", "frame is 'utm', neither 'local' nor 'geographic'; "},
-    {"\"origin\"", "\"start\"", "origin is missing; "},
-    {"\"longitude_deg\": 8.4, ", "", "origin.longitude_deg is missing; "},
-    {"\"altitude_m\": 110", "\"altitude_m\": \"110\"", "origin.altitude_m is not a number; "},
+    {R"("principal_px")", R"("principle_px")", "camera.principal_px is missing; "},
+    {R"("frame": "local",)", "", "frame is missing; "},
+    {R"("local")", R"("utm")", "frame is 'utm', neither 'local' nor 'geographic'; "},
+    {R"("origin")", R"("start")", "origin is missing; "},
+    {R"("longitude_deg": 8.4, )", "", "origin.longitude_deg is missing; "},
+    {R"("altitude_m": 110)", R"("altitude_m": "110")", "origin.altitude_m is not a number; "},
     {"49.0", "90.5", "origin is not a position"},
-    {"\"images\": \"frames\",", "", "images is missing; "},
-    {"\"frames\"", "\"../frames\"", "images is '../frames', not a folder inside the drive; "},
-    {"\"frames\"", "\"/frames\"", "images is '/frames', not a folder inside the drive; "},
-    {"\"frames\"", "\"\"", "images is '', not a folder inside the drive; "},
-    {"\"free\"", "[]", "licence is not a string; "},
+    {R"("images": "frames",)", "", "images is missing; "},
+    {R"("frames")", R"("../frames")", "images is '../frames', not a folder inside the drive; "},
+    {R"("frames")", R"("/frames")", "images is '/frames', not a folder inside the drive; "},
+    {R"("frames")", R"("")", "images is '', not a folder inside the drive; "},
+    {R"("free")", "[]", "licence is not a string; "},
 };
 
 INSTANTIATE_TEST_SUITE_P(ReadDrive, BadDescriptions, ::testing::ValuesIn(kBadDescriptions));
@@ -221,7 +219,7 @@ const BadRow kBadRows[] = {
     {3, "..,10.2,0,2,1.5,0", "filename '..' is not the plain name of a file; "},
     {3, "../b.png,10.2,0,2,1.5,0", "filename '../b.png' is not the plain name of a file; "},
     {3, "/b.png,10.2,0,2,1.5,0", "filename '/b.png' is not the plain name of a file; "},
-    {3, "x\\b.png,10.2,0,2,1.5,0", "filename 'x\\b.png' is not the plain name of a file; "},
+    {3, R"(x\b.png,10.2,0,2,1.5,0)", R"(filename 'x\b.png' is not the plain name of a file; "},
 };
 
 INSTANTIATE_TEST_SUITE_P(ReadDrive, BadRows, ::testing::ValuesIn(kBadRows));
@@ -255,15 +253,15 @@ TEST(ReadDriveRefuses, ATrajectoryWithoutRows) {
 
 TEST(ReadDriveRefuses, PositionsOffTheEarth) {
   const DriveFolder folder;
-  folder.replace("drive.json", "\"local\"", "\"geographic\"");
-  const std::string header =
-      "filename,timestamp_s,latitude_deg,longitude_deg,altitude_m,heading_deg\n";
-  folder.write("trajectory.csv", header + "a.png,1,90.1,8.4,0,0\n");
-  EXPECT_THAT(refusal(folder),
-              HasSubstr("trajectory.csv, line 2: latitude_deg 90.1 is out of range"));
-  folder.write("trajectory.csv", header + "a.png,1,49,-181,0,0\n");
-  EXPECT_THAT(refusal(folder),
-              HasSubstr("trajectory.csv, line 2: longitude_deg -181 is out of range"));
+  folder.replace("drive.json", R"("local")", R"("geographic")");
+const std::string header =
+    "filename,timestamp_s,latitude_deg,longitude_deg,altitude_m,heading_deg\n";
+folder.write("trajectory.csv", header + "a.png,1,90.1,8.4,0,0\n");
+EXPECT_THAT(refusal(folder),
+            HasSubstr("trajectory.csv, line 2: latitude_deg 90.1 is out of range"));
+folder.write("trajectory.csv", header + "a.png,1,49,-181,0,0\n");
+EXPECT_THAT(refusal(folder),
+            HasSubstr("trajectory.csv, line 2: longitude_deg -181 is out of range"));
 }
 
 // gps.csv and odometry.csv

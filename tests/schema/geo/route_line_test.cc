@@ -18,6 +18,7 @@ const GeoPoint kOrigin{49, 8.4, 0};
 std::vector<GeoPoint> vertices_at(const std::vector<EnuPoint>& points) {
   const LocalFrame frame(kOrigin);
   std::vector<GeoPoint> vertices;
+  vertices.reserve(points.size());
   for (const EnuPoint& point : points) vertices.push_back(frame.geo_from_enu(point));
   return vertices;
 }
