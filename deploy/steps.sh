@@ -1,5 +1,8 @@
 # Sourced by the commands of deploy and tests: one line a step, its output in a log file.
 
+# Objects in ccache serve every checkout of the project, wherever it lies.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+
 fail() {
   echo "$(basename "$0"): $*" >&2
   exit 1

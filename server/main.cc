@@ -1,9 +1,9 @@
 // milepost-server: serves a directory of maps until it is told to stop.
 #include <pthread.h>
-#include <signal.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <csignal>
 #include <iostream>
 
 #include "server/options.h"

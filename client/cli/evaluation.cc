@@ -95,6 +95,7 @@ void summarize_errors(const std::vector<EvaluatedFix>& fixes, Summary& summary) 
 
 void summarize_latency(const std::vector<EvaluatedFix>& fixes, Summary& summary) {
   std::vector<double> latencies_ms;
+  latencies_ms.reserve(fixes.size());
   for (const EvaluatedFix& fix : fixes) latencies_ms.push_back(fix.frame.latency_ms);
   std::sort(latencies_ms.begin(), latencies_ms.end());
   summary.latency_ms_p50 = quantile(latencies_ms, 0.5);

@@ -288,6 +288,7 @@ class HttpSource : public MapSource {
     auto document = parse_segment_document(*text, url, version, segment);
     if (!document.ok()) return document.error();
     cache_->store(CacheKey::segment_document(version.map, version.build, segment), as_bytes(*text));
+    known_lines_.forget();
     return SharedDocument(std::make_shared<const SegmentDocument>(std::move(*document)));
   }
 

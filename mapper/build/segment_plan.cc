@@ -25,6 +25,7 @@ Result<SegmentPlan> plan_segment(const Drive& drive, double min_spacing_m) {
   }
   std::vector<std::size_t> frame_indices = spaced_frames(drive, min_spacing_m);
   std::vector<GeoPoint> vertices;
+  vertices.reserve(frame_indices.size());
   for (const std::size_t i : frame_indices) vertices.push_back(drive.frames[i].position);
   Result<RouteLine> line = RouteLine::from_vertices(std::move(vertices));
   if (!line) {

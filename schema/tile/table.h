@@ -15,6 +15,6 @@ Bytes table_from_tile(const TrackletTile& tile);
 
 // Never trusts a byte. REQUIRES: the bytes are aligned to 8.
 // Errors: corrupt, naming the paragraph broken.
-Result<TrackletTile> tile_from_table(ByteView table);
+Result<TrackletTile> tile_from_table(ByteView bytes);
 
 }  // namespace milepost

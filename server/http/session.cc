@@ -97,14 +97,13 @@ void Session::abort() {
 void Session::close() { stream_.close(); }
 
 net::awaitable<void> Session::run() {
-  bool open = true;
-  while (open && !finishing_) {
-    open = false;
+  while (!finishing_) {
     const bool begun = co_await await_first_byte();
     if (!begun) co_return;
     const std::unique_ptr<Incoming> incoming = co_await read_request();
     if (incoming == nullptr) co_return;
-    open = co_await answer(*incoming);
+    const bool open = co_await answer(*incoming);
+    if (!open) break;
   }
   co_await linger();
 }

@@ -1,20 +1,20 @@
 // The program itself, as an operator starts it.
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "tests/server/connection.h"
 #include "tests/server/test_map.h"
-
-extern char** environ;
 
 namespace milepost::server {
 namespace {
@@ -30,6 +30,7 @@ class Program {
   explicit Program(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), MILEPOST_SERVER);
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     std::array<int, 2> out{};

@@ -267,6 +267,7 @@ TEST_F(ServerTest, ManyClientsAtOnceGetTheirBytes) {
   const std::string middle = frames(1, 2);
   std::atomic<int> good = 0;
   std::vector<std::thread> clients;
+  clients.reserve(16);
   for (int i = 0; i < 16; ++i) {
     clients.emplace_back([&, i] {
       Connection connection(port_);

@@ -1,8 +1,8 @@
 #include "tests/server/test_map.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
+#include <cstdlib>
 #include <random>
 #include <stdexcept>
 
@@ -19,6 +19,7 @@ void must(const Status& status) {
 StoredSegment segment(const std::string& id, double north_deg, double east_deg,
                       std::vector<std::string> successors) {
   std::vector<GeoPoint> points;
+  points.reserve(4);
   for (int i = 0; i < 4; ++i) points.push_back({49 + i * north_deg, 8 + i * east_deg, 110.25});
   const Result<RouteLine> line = RouteLine::from_vertices(points);
   StoredSegment stored{id, line->length_m(), {}, std::move(successors)};

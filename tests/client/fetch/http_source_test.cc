@@ -335,7 +335,24 @@ TEST_F(HttpSourceTest, SegmentsFetchedLaterAreKnownToo) {
   ASSERT_TRUE(source->segment(map_.version(), "s1").ok());
   const auto near = source->segments_near(position, 50);
   ASSERT_TRUE(near.ok()) << near.error().line();
-  EXPECT_EQ(near->size(), 1U);
+  EXPECT_LT(near->front().distance_m, 0.1);  // from the cache, not the server's 1.25
+}
+
+TEST_F(HttpSourceTest, WhatTheServerSaysRenewsWhatIsKnown) {
+  const GeoPoint position{49.0001, 8.4, 0};
+  const auto source = open_source();
+  ASSERT_TRUE(source->segment(map_.version(), "s1").ok());
+  answer_next("/v1/segments?", {{.status = 503}});
+  EXPECT_TRUE(source->segments_near(position, 50).ok());
+  // Another process puts a newer build into the cache, which this one then hears of.
+  map_.build = std::string(32, 'b');
+  now_s_ += 6;
+  ASSERT_TRUE(open_source()->segment(map_.version(), "s1").ok());
+  EXPECT_EQ(source->segments_near(position, 50)->front().version, map_.version());
+  answer_next("/v1/segments?", {{.status = 503}});
+  const auto near = source->segments_near(position, 50);
+  ASSERT_TRUE(near.ok()) << near.error().line();
+  EXPECT_EQ(near->front().version, map_.version());
 }
 
 TEST_F(HttpSourceTest, WithoutAServerAndACacheTheUrlIsNamed) {

@@ -219,7 +219,7 @@ const BadRow kBadRows[] = {
     {3, "..,10.2,0,2,1.5,0", "filename '..' is not the plain name of a file; "},
     {3, "../b.png,10.2,0,2,1.5,0", "filename '../b.png' is not the plain name of a file; "},
     {3, "/b.png,10.2,0,2,1.5,0", "filename '/b.png' is not the plain name of a file; "},
-    {3, R"(x\b.png,10.2,0,2,1.5,0)", R"(filename 'x\b.png' is not the plain name of a file; "},
+    {3, R"(x\b.png,10.2,0,2,1.5,0)", R"(filename 'x\b.png' is not the plain name of a file; )"},
 };
 
 INSTANTIATE_TEST_SUITE_P(ReadDrive, BadRows, ::testing::ValuesIn(kBadRows));
@@ -254,14 +254,14 @@ TEST(ReadDriveRefuses, ATrajectoryWithoutRows) {
 TEST(ReadDriveRefuses, PositionsOffTheEarth) {
   const DriveFolder folder;
   folder.replace("drive.json", R"("local")", R"("geographic")");
-const std::string header =
-    "filename,timestamp_s,latitude_deg,longitude_deg,altitude_m,heading_deg\n";
-folder.write("trajectory.csv", header + "a.png,1,90.1,8.4,0,0\n");
-EXPECT_THAT(refusal(folder),
-            HasSubstr("trajectory.csv, line 2: latitude_deg 90.1 is out of range"));
-folder.write("trajectory.csv", header + "a.png,1,49,-181,0,0\n");
-EXPECT_THAT(refusal(folder),
-            HasSubstr("trajectory.csv, line 2: longitude_deg -181 is out of range"));
+  const std::string header =
+      "filename,timestamp_s,latitude_deg,longitude_deg,altitude_m,heading_deg\n";
+  folder.write("trajectory.csv", header + "a.png,1,90.1,8.4,0,0\n");
+  EXPECT_THAT(refusal(folder),
+              HasSubstr("trajectory.csv, line 2: latitude_deg 90.1 is out of range"));
+  folder.write("trajectory.csv", header + "a.png,1,49,-181,0,0\n");
+  EXPECT_THAT(refusal(folder),
+              HasSubstr("trajectory.csv, line 2: longitude_deg -181 is out of range"));
 }
 
 // gps.csv and odometry.csv
