@@ -28,7 +28,8 @@ double geodesic_azimuth_deg(const GeoPoint& from, const GeoPoint& to) {
 
 double wrapped_360(double angle_deg) {
   const double wrapped = std::fmod(angle_deg, 360.0);
-  return wrapped < 0 ? wrapped + 360.0 : wrapped;
+  const double turned = wrapped < 0 ? wrapped + 360.0 : wrapped;
+  return turned >= 360.0 ? 0.0 : turned;  // a tiny negative angle rounds up to a whole turn
 }
 
 LocalFrame::LocalFrame(const GeoPoint& origin)

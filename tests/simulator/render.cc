@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kNearM = 0.1;
 constexpr int kSamplesPerSide = 2;  // of a pixel, for the edges
+constexpr std::size_t kSamplesPerPixel = 4;
 constexpr std::int32_t kSky = -1;
 
 // The camera's axes in the scene.
@@ -142,7 +143,7 @@ class Visibility {
     }
   }
 
-  std::array<std::int32_t, kSamplesPerSide * kSamplesPerSide> in_front(int x_px, int y_px) const {
+  std::array<std::int32_t, kSamplesPerPixel> in_front(int x_px, int y_px) const {
     const std::size_t at = index_of(y_px * kSamplesPerSide, x_px * kSamplesPerSide);
     return {front_[at], front_[at + 1], front_[at + columns_], front_[at + columns_ + 1]};
   }
