@@ -27,9 +27,8 @@ constexpr std::int64_t kLayoutVersion = 1;           // as in cache.sql
 class FolderLock {
  public:
   explicit FolderLock(const fs::path& folder)
-      : descriptor_(::open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
-    held_ = descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) == 0;
-  }
+      : descriptor_(::open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)),
+        held_(descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) == 0) {}
   ~FolderLock() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -40,7 +39,7 @@ class FolderLock {
 
  private:
   int descriptor_;
-  bool held_ = false;
+  bool held_;
 };
 
 Error lock_error(const fs::path& folder) {

@@ -175,6 +175,7 @@ class HttpSource : public MapSource {
     const Status fetched = fetch_missing(collection);
     if (!fetched.ok()) return fetched.error();
     std::vector<TileFrame> frames;
+    frames.reserve(wanted.size());
     for (const TileEntry& entry : wanted) {
       frames.push_back({entry.index, std::move(collection.frames[entry.index])});
     }

@@ -17,7 +17,7 @@
 namespace milepost {
 namespace {
 
-constexpr std::size_t kMaxProblemBytes = 16 * 1024;
+constexpr std::size_t kMaxProblemBytes = 16UL * 1024;
 constexpr long kMaxRedirects = 5;
 
 struct HandleCloser {

@@ -33,9 +33,11 @@ Ticks round_ticks(double from, double to, int most) {
   ticks.step = round_step((to - from) / most);
   ticks.decimals =
       std::max(0, static_cast<int>(-std::floor(std::log10(ticks.step) + kTickTolerance)));
-  const double first = std::ceil(from / ticks.step - kTickTolerance);
-  const double last = std::floor(to / ticks.step + kTickTolerance);
-  for (double k = first; k <= last; ++k) ticks.values.push_back(k * ticks.step);
+  const auto first = std::llround(std::ceil(from / ticks.step - kTickTolerance));
+  const auto last = std::llround(std::floor(to / ticks.step + kTickTolerance));
+  for (auto k = first; k <= last; ++k) {
+    ticks.values.push_back(static_cast<double>(k) * ticks.step);
+  }
   return ticks;
 }
 

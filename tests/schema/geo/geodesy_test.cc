@@ -78,6 +78,7 @@ TEST(Wrapped360, BringsAnglesIntoOneTurn) {
   EXPECT_EQ(wrapped_360(725), 5);
   EXPECT_EQ(wrapped_360(-0.5), 359.5);
   EXPECT_EQ(wrapped_360(-720), 0);
+  EXPECT_EQ(wrapped_360(-1e-20), 0);  // 360 - 1e-20 rounds to 360, which is not in the range
 }
 
 TEST(IsValid, HoldsPositionsOnTheEarth) {
