@@ -10,14 +10,14 @@ std::string_view report_style() {
   color-scheme: light dark;
   --page: #fff; --ink: #1b1e23; --muted: #5c636e; --rule: #d9dde3; --grid: #eceef1; --band: #8a93a040;
   --road: #d5dae1; --m0: #0067a8; --m1: #c94f00; --m2: #00805c; --m3: #b85a93; --m4: #b87a00;
-  --m5: #3d9bd1; --m6: #555b66;
+  --m5: #3d9bd1; --m6: #555b66; --m7: #7a5230;
   --e0: #9cc9e6; --e1: #4a96cb; --e2: #1f5fa3; --e3: #f0a13c; --e4: #dc5f12; --e5: #9c1c1c;
 }
 @media screen and (prefers-color-scheme: dark) {
   :root {
     --page: #14161a; --ink: #e6e8eb; --muted: #9aa2ad; --rule: #353a42; --grid: #24282e; --band: #aab4c240;
     --road: #3d444e; --m0: #56b4e9; --m1: #f08a4b; --m2: #2cc295; --m3: #df9cc4; --m4: #e6b23c;
-    --m5: #6f8cff; --m6: #b9c0ca;
+    --m5: #6f8cff; --m6: #b9c0ca; --m7: #c49a78;
     --e0: #2f5f80; --e1: #4a96cb; --e2: #9fd3f5; --e3: #f0b45c; --e4: #f58549; --e5: #ff5d5d;
   }
 }
@@ -57,7 +57,7 @@ figcaption { margin: 0; padding-top: .5rem; }
 .legend span { display: inline-flex; align-items: center; gap: .4rem; }
 .legend i { width: 18px; border-top: 3px solid var(--c); border-radius: 2px; }
 .m0 { --c: var(--m0); } .m1 { --c: var(--m1); } .m2 { --c: var(--m2); } .m3 { --c: var(--m3); }
-.m4 { --c: var(--m4); } .m5 { --c: var(--m5); } .m6 { --c: var(--m6); }
+.m4 { --c: var(--m4); } .m5 { --c: var(--m5); } .m6 { --c: var(--m6); } .m7 { --c: var(--m7); }
 .chart { display: block; width: calc(100% - 64px); margin: 30px 12px 0 52px; overflow: visible; }
 .defs { position: absolute; width: 0; height: 0; }
 .open { overflow: visible; }
