@@ -4,8 +4,8 @@ namespace milepost {
 namespace {
 
 // The tracklet paper's proposed methods 1 and 2 (section 5.2): regression on scale, the mean of all
-// estimates, without and with its Kalman filter.
-Method paper_method(const std::string& name, bool filter) {
+// estimates, without and with a filter.
+Method paper_method(const std::string& name, PaperFilter filter) {
   Method method;
   method.name = name;
   method.layer = "tracklets-scale";
@@ -31,13 +31,15 @@ Method milepost_method() {
 
 const std::vector<std::string>& method_names() {
   static const std::vector<std::string> names = {"tracklet-regression",
-                                                 "tracklet-regression-kalman", kDefaultMethod};
+                                                 "tracklet-regression-kalman",
+                                                 "tracklet-regression-particle", kDefaultMethod};
   return names;
 }
 
 Result<Method> method_named(const std::string& name) {
-  if (name == "tracklet-regression") return paper_method(name, false);
-  if (name == "tracklet-regression-kalman") return paper_method(name, true);
+  if (name == "tracklet-regression") return paper_method(name, PaperFilter::none);
+  if (name == "tracklet-regression-kalman") return paper_method(name, PaperFilter::kalman);
+  if (name == "tracklet-regression-particle") return paper_method(name, PaperFilter::particle);
   if (name == kDefaultMethod) return milepost_method();
   std::string known;
   for (const std::string& each : method_names()) known += (known.empty() ? "" : ", ") + each;
