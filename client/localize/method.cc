@@ -15,6 +15,22 @@ Method paper_method(const std::string& name, PaperFilter filter) {
   return method;
 }
 
+// The regression of tracklet-regression with the descriptors of all observations in place of their
+// mean: what averaging costs. For the laboratory.
+Method unaveraged_method(const std::string& name) {
+  Method method = paper_method(name, PaperFilter::none);
+  method.layer = "observations";
+  method.match.neighbours = 40;  // a tracklet has as many descriptors as observations
+  return method;
+}
+
+// The paper's comparative method 3: the closest frame of the map for each feature, no regression.
+Method matching_method(const std::string& name) {
+  Method method = unaveraged_method(name);
+  method.match.estimation = Estimation::closest_observation;
+  return method;
+}
+
 Method milepost_method() {
   Method method;
   method.name = kDefaultMethod;
@@ -30,16 +46,21 @@ Method milepost_method() {
 }  // namespace
 
 const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names = {"tracklet-regression",
+  static const std::vector<std::string> names = {"tracklet-matching",
+                                                 "tracklet-regression",
                                                  "tracklet-regression-kalman",
-                                                 "tracklet-regression-particle", kDefaultMethod};
+                                                 "tracklet-regression-particle",
+                                                 "tracklet-regression-unaveraged",
+                                                 kDefaultMethod};
   return names;
 }
 
 Result<Method> method_named(const std::string& name) {
+  if (name == "tracklet-matching") return matching_method(name);
   if (name == "tracklet-regression") return paper_method(name, PaperFilter::none);
   if (name == "tracklet-regression-kalman") return paper_method(name, PaperFilter::kalman);
   if (name == "tracklet-regression-particle") return paper_method(name, PaperFilter::particle);
+  if (name == "tracklet-regression-unaveraged") return unaveraged_method(name);
   if (name == kDefaultMethod) return milepost_method();
   std::string known;
   for (const std::string& each : method_names()) known += (known.empty() ? "" : ", ") + each;

@@ -9,7 +9,8 @@ FIX_COLUMNS = ["timestamp_s", "filename", "status", "segment", "along_m", "sigma
                "longitude_deg", "matches", "latency_ms"]
 SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m", "p95_error_m", "frames",
                 "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99"]
-METHODS = ["tracklet-regression", "tracklet-regression-kalman", "tracklet-regression-particle", "milepost"]
+METHODS = ["tracklet-matching", "tracklet-regression", "tracklet-regression-kalman", "tracklet-regression-particle",
+           "tracklet-regression-unaveraged", "milepost"]
 STATUSES = {"initializing", "tracking", "predicted", "lost", "off-map"}
 
 
