@@ -1,4 +1,4 @@
-// The layers of tracklets that a build makes: the default method's and, for the laboratory, others.
+// The layers that a build makes: the default method's and, for the laboratory, those of the others.
 #pragma once
 
 #include <string>
@@ -9,17 +9,22 @@
 
 namespace milepost {
 
-struct TrackletLayer {
+enum class LayerItems { tracklets, observations };
+
+struct Layer {
   std::string name;
-  RegressionSettings regression;
+  LayerItems items = LayerItems::tracklets;
+  RegressionSettings regression;  // of tracklets, with or without their observations
 };
 
-// `tracklets`, which serves the default method, and with settings.lab `tracklets-scale`, the
-// regression on scale as the paper publishes it.
-std::vector<TrackletLayer> tracklet_layers(const BuildSettings& settings);
+// `tracklets`, which serves the default method, and with settings.lab: `tracklets-scale`, the
+// regression on scale as the paper publishes it, and `observations`, every observation of the same
+// tracklets.
+std::vector<Layer> layers_of(const BuildSettings& settings);
 
-// The layer's parameters as the map keeps them: a JSON object. The camera's focal lengths are among
-// them, since feature scales of another camera compare only after scaling by their ratio.
-std::string parameters_json(const TrackletLayer& layer, const Camera& camera, double tile_length_m);
+// The layer's parameters as the map keeps them (FORMAT.md 2.4): a JSON object. The camera's focal
+// lengths are among them, since feature scales of another camera compare only after scaling by
+// their ratio.
+std::string parameters_json(const Layer& layer, const Camera& camera, double tile_length_m);
 
 }  // namespace milepost

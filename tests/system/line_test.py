@@ -9,7 +9,8 @@ FIX_COLUMNS = ["timestamp_s", "filename", "status", "segment", "along_m", "sigma
                "longitude_deg", "matches", "latency_ms"]
 SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m", "p95_error_m", "frames",
                 "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99"]
-METHODS = ["tracklet-regression", "tracklet-regression-kalman", "milepost"]
+METHODS = ["tracklet-matching", "tracklet-regression", "tracklet-regression-kalman", "tracklet-regression-particle",
+           "tracklet-regression-unaveraged", "milepost"]
 STATUSES = {"initializing", "tracking", "predicted", "lost", "off-map"}
 
 
@@ -73,7 +74,9 @@ class Line(CommandTest):
             self.assertGreater(entry["map_kb_per_m"], 0.1)
             self.assertLess(entry["mean_error_m"], 1.0)
             self.check_against_rows(entry, rows_of(out / f"fixes-{entry['method']}.csv"))
-        self.assertLess(summary[2]["mean_error_m"], summary[0]["mean_error_m"])
+        error_m = {entry["method"]: entry["mean_error_m"] for entry in summary}
+        self.assertLess(error_m["milepost"], error_m["tracklet-regression"])
+        self.assertAlmostEqual(error_m["tracklet-regression-particle"], error_m["tracklet-regression-kalman"], delta=0.1)
         report = (out / "report.html").read_text()
         self.assertEqual(report.count("<table"), 1)
         for method in METHODS:
