@@ -116,8 +116,16 @@ def particle_claims(evidence):
 
 def order_claims(evidence):
     """Table 1: each method is better than the one before it."""
-    return [less(evidence, better, worse, f"Order of Table 1: {NAMES[better]} is better than {NAMES[worse]}")
-            for worse, better in zip(paper.ORDER, paper.ORDER[1:])]
+    text = "The methods stand in the order of Table 1 by their mean errors"
+    if not evidence.has(*paper.ORDER):
+        whole = untested(text, evidence, *paper.ORDER)
+    else:
+        means_m = {method: statistics.figures_of(of_method(evidence.fixes, method)).mean_m for method in paper.ORDER}
+        ours = sorted(paper.ORDER, key=lambda method: -means_m[method])
+        whole = Claim(text, verdict(ours == list(paper.ORDER)),
+                      "here: " + ", ".join(f"{NAMES[method]} {means_m[method]:.2f} m" for method in ours))
+    return [whole, *(less(evidence, better, worse, f"Order of Table 1: {NAMES[better]} is better than {NAMES[worse]}")
+                     for worse, better in zip(paper.ORDER, paper.ORDER[1:]))]
 
 
 def normality_claim(normality):

@@ -42,11 +42,15 @@ class Laboratory:
         self.studies = [studies.outcome(studies.STUDIES[study], runs, self.query_drive)
                         for study, runs in self.study_runs.items()]
         if "lateral" in self.study_names:
-            self.studies.append(studies.lateral_outcome(self.fixes))
+            self.studies.append(studies.lateral_outcome(self.shown()))
         self.claims = paper_claims.claims_of(self.fixes, self.normality.get("tracklet-regression"))
         self.tables = [tables.table_1(self.fixes), tables.table_2(self.fixes), tables.calibration_table(self.fixes)]
         if self.normality:
             self.tables.append(tables.normality_table(self.normality))
+
+    def shown(self):
+        """Without the variant that only a claim needs."""
+        return [each for each in self.fixes if each.method != paper.UNAVERAGED]
 
     def query_drive(self, pair):
         return self.planner.drive_folder(pair.place, pair.query_drive)
@@ -106,8 +110,8 @@ class Laboratory:
                 *([("Kinds", ", ".join(f"{tag} ({count})" for tag, count in sorted(tags.items())))] if tags else [])]
 
     def report(self, by_pair):
-        methods = [method for method in self.methods if method != paper.UNAVERAGED]
-        shown = [each for each in self.fixes if each.method in methods]
+        shown = self.shown()
+        methods = tables.methods_of(shown)
         estimators = [method for method in (*paper.ESTIMATORS, paper.OURS) if method in methods]
         body = [
             report.table(self.tables[0]),

@@ -1,6 +1,5 @@
 """report.html: every table and figure in one file that loads nothing, in the look of milepost-client's report."""
 import html
-import re
 
 from .drawing import CLASSES
 from .runs import PROJECT
@@ -48,8 +47,7 @@ PAGE = """<!DOCTYPE html>
 
 def page_style():
     """The client's style sheet, which is the one place where the look is told, and what is added to it."""
-    source = (PROJECT / "client/cli/report_style.cc").read_text(encoding="utf-8")
-    return re.search(r'R"css\((.*?)\)css"', source, re.DOTALL).group(1) + STYLE
+    return (PROJECT / "client/cli/report.css").read_text(encoding="utf-8") + STYLE
 
 
 def legend(methods):

@@ -40,11 +40,12 @@ class Table:
         return tuple(row[:self.groups])
 
     def best_text(self, row, index):
-        """The cell that is marked in the row's group, where one is."""
+        """The cell that is marked in the row's group; none where all say the same."""
         heading, _, decimals = self.columns[index]
         values = [each[index] for each in self.rows if self.group(each) == self.group(row)]
         values = [value for value in values if isinstance(value, (int, float)) and math.isfinite(value)]
-        return self.text(min(values), decimals) if heading in self.best and len(values) > 1 else None
+        texts = {self.text(value, decimals) for value in values}
+        return self.text(min(values), decimals) if heading in self.best and len(texts) > 1 else None
 
     def is_best(self, row, index):
         return not isinstance(row[index], str) and self.cell(row, index) == self.best_text(row, index)
