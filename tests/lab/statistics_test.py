@@ -98,6 +98,9 @@ class Normality(unittest.TestCase):
         # Two values at the mean: the sample steps from 0 to 1 where the normal is at a half.
         self.assertAlmostEqual(statistics.kolmogorov_distance(np.array([0.0, 0.0]), 0, 1), 0.5)
         self.assertAlmostEqual(statistics.kolmogorov_distance(np.array([-10.0, 10.0]), 0, 1), 0.5)
+        # One value above all of the normal, and one below.
+        self.assertAlmostEqual(statistics.kolmogorov_distance(np.array([10.0]), 0, 1), 1)
+        self.assertAlmostEqual(statistics.kolmogorov_distance(np.array([-10.0]), 0, 1), 1)
 
     def test_of_an_even_distribution(self):
         normality = statistics.normality_of(np.linspace(-1, 1, 10001))

@@ -123,6 +123,21 @@ class Claims(unittest.TestCase):
         self.assertEqual(verdicts["Averaging descriptors halves the map"], "held")
         self.assertEqual(verdicts["The particle filter adds nothing significant"], "not tested")
 
+    def test_a_difference_within_chance_holds_nothing_and_refutes_nothing(self):
+        noise = 1 + np.random.default_rng(2).exponential(1.0, 60)
+        verdicts = self.verdicts([fixes("a", "tracklet-regression", noise),
+                                  fixes("a", "tracklet-regression-kalman", noise[::-1] - 0.02),
+                                  fixes("a", "tracklet-regression-particle", np.roll(noise, 30) - 0.04)])
+        self.assertEqual(verdicts["The Kalman filter lowers the mean error"], "not held")
+        self.assertEqual(verdicts["The particle filter adds nothing significant"], "held")
+
+    def test_the_whole_order_of_table_1(self):
+        order = ("wisurf", "scale-only", "tracklet-matching", "tracklet-regression", "tracklet-regression-kalman")
+        text = "The methods stand in the order of Table 1 by their mean errors"
+        for errors_m, verdict in (((5, 4, 3, 2, 1), "held"), ((4, 5, 3, 2, 1), "not held")):
+            self.assertEqual(self.verdicts([fixes("a", method, np.full(30, float(error_m)))
+                                            for method, error_m in zip(order, errors_m)])[text], verdict)
+
     def test_a_better_particle_filter_refutes(self):
         verdicts = self.verdicts([fixes("a", "tracklet-regression-kalman", np.full(60, 0.5)),
                                   fixes("a", "tracklet-regression-particle", np.full(60, 0.4))])

@@ -56,9 +56,10 @@ def drawn(rows, columns, height_in, draw, **subplots):
 
 def svg_of(figure):
     text = io.StringIO()
-    figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    figure.savefig(text, format="svg")
     svg = text.getvalue()
     svg = svg[svg.index("<svg"):]
+    # The date, which would differ each time, and addresses of standards.
     svg = re.sub(r"\s*<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     svg = re.sub(r"<g id=\"[^\"]*\"", "<g", svg)  # nothing refers to them, and they are not unique in the page
     # The page's font; the weight and size are the drawing's.
