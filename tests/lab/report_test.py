@@ -7,7 +7,8 @@ import xml.etree.ElementTree
 import numpy as np
 
 from laboratory import claims, drawing, figures, report, statistics, tables
-from made_up import fixes
+from laboratory.regressions import regression_table, samples_of
+from made_up import fixes, regression_rows
 
 METHODS = ["wisurf", "scale-only", "tracklet-matching", "tracklet-regression", "tracklet-regression-kalman",
            "tracklet-regression-particle", "milepost"]
@@ -22,12 +23,14 @@ def some_fixes():
 def some_page():
     of = some_fixes()
     errors_m = np.random.default_rng(8).normal(0, 1, 500)
+    samples = samples_of(regression_rows())
     return report.page("a <list>", "A lead & more.", [("Pairs", "<one>, two")], [
         report.table(tables.table_1(of)), report.claims(claims.claims_of(of), "A note."),
         report.figure("means", figures.means_beside_paper(of), "c"),
         report.figure("5", figures.error_along_route(of), "c", METHODS),
         report.figure("all", figures.error_distribution(of), "c", METHODS),
         report.figure("6", figures.error_by_road_type(of), "c", METHODS),
+        report.figure("7", figures.regressions(samples), "c"), report.table(regression_table(samples)),
         report.figure("8", figures.estimate_histogram(errors_m, statistics.normality_of(errors_m)), "c"),
         report.figure("study", figures.study_figure({"milepost": [(1, 2, 3), (2, 3, 4)]}, "x", x_log=True), "c"),
     ])
@@ -62,7 +65,7 @@ class Report(unittest.TestCase):
 
     def test_drawings_are_well_formed_and_names_are_escaped(self):
         drawings = re.findall(r"<svg.*?</svg>", self.page, re.DOTALL)
-        self.assertEqual(len(drawings), 6)
+        self.assertEqual(len(drawings), 7)
         for each in drawings:
             xml.etree.ElementTree.fromstring(each)
         self.assertNotIn("<one>", self.page)

@@ -115,6 +115,15 @@ class Normality(unittest.TestCase):
         self.assertLess(normality.core_kolmogorov, normality.kolmogorov)
 
 
+class LinearFit(unittest.TestCase):
+    def test_by_hand(self):
+        # Means 1 and 2: the slope is (-1 * -1 + 0 * -1 + 1 * 2) / 2.
+        fit = statistics.linear_fit(np.array([0.0, 1, 2]), np.array([1.0, 1, 4]))
+        self.assertAlmostEqual(fit.slope, 1.5)
+        self.assertAlmostEqual(fit.intercept, 0.5)
+        self.assertAlmostEqual(fit.r_squared, 0.75)  # residuals 0.5, -1, 0.5; deviations -1, -1, 2
+
+
 class RunningMean(unittest.TestCase):
     def test_over_a_window_without_missing_values(self):
         means = statistics.running_mean(np.array([0.0, 1, 2, 10]), np.array([1, NAN, 3, 5]), 4)

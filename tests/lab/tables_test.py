@@ -14,7 +14,8 @@ import numpy as np
 from laboratory import claims, results, studies, tables
 from laboratory.fixes import read_run
 from laboratory.road import tracklets_per_m
-from made_up import fixes
+from laboratory.regressions import regression_table, samples_of
+from made_up import fixes, regression_rows
 
 HEADER = ("timestamp_s,filename,status,segment,along_m,sigma_m,latitude_deg,longitude_deg,matches,latency_ms,"
           "truth_along_m,error_m\n")
@@ -105,6 +106,18 @@ class Tables(unittest.TestCase):
         self.assertEqual([row[0] for row in outcome.table.rows], ["0 to 0.25", "0.5 to 1"])
         self.assertEqual([row[3] for row in outcome.table.rows], [1.0, 3.0])
         self.assertEqual(len(outcome.points["milepost"]), 2)
+
+
+class Regressions(unittest.TestCase):
+    def test_a_feature_of_fixed_size_is_linear_in_inverse_scale(self):
+        first, second = samples_of(regression_rows())
+        self.assertEqual((first.name, second.name, len(first.along_m)), ("A", "B", 6))
+        inverse = second.fits["inverse scale"]  # s = 200 / (55 - along)
+        self.assertAlmostEqual(inverse.intercept, 55)
+        self.assertAlmostEqual(inverse.slope, 200)
+        self.assertAlmostEqual(inverse.r_squared, 1)
+        self.assertLess(first.fits["scale"].r_squared, 0.98)
+        self.assertEqual(regression_table([first]).rows[0][:3], ["A", 6, 15.0])
 
 
 class Claims(unittest.TestCase):

@@ -5,12 +5,14 @@ from scipy import stats
 
 from . import paper
 from .drawing import DASHES, INK, MARKERS, MUTED, RULE, STAND_INS, colour, drawn
+from .regressions import MODELS
 from .statistics import running_mean
 from .tables import methods_of, of_method, on_road, pairs_of
 
 RUNNING_WINDOW_M = 10.0
 LEAST_SHOWN_M = 0.01  # of an error on a logarithmic axis
 HISTOGRAM_SIGMAS = 4.0
+SAMPLE_MARKERS = "osD^vPX"
 
 
 def metres(value, _):
@@ -104,6 +106,27 @@ def error_distribution(fixes):
         axis.set_ylim(0, 100)
 
     return drawn(1, 1, 3.2, draw)
+
+
+def regressions(samples):
+    """Figure 7: `samples` are Samples; where a feature was seen at which scale, and the lines of both models."""
+    def draw(axes):
+        for axis, model, end in zip(axes[0], MODELS, (1, 0)):  # the letters stand where the lines are apart
+            for index, sample in enumerate(samples):
+                fit, last_m = sample.fits[model], sample.along_m[-1]
+                reach_m = np.array([sample.along_m[0] - last_m - 1, 1])
+                line = (reach_m + last_m - fit.intercept) / fit.slope
+                axis.plot(reach_m, line, color=MUTED, linewidth=1)
+                axis.plot(sample.along_m - last_m, MODELS[model](sample.scale_px), color=STAND_INS["m0"], linestyle="",
+                          marker=SAMPLE_MARKERS[index % len(SAMPLE_MARKERS)], markersize=4.5, markeredgewidth=0)
+                axis.annotate(sample.name, (reach_m[end], line[end]), (3 if end else -3, 0), va="center",
+                              ha="left" if end else "right", textcoords="offset points", fontsize=8, fontweight="bold")
+            axis.set_title(f"linear in {model}")
+            axis.set_xlabel("position, from where it was last seen (m)")
+        axes[0, 0].set_ylabel("scale s (px)")
+        axes[0, 1].set_ylabel("-1/s (1/px)")
+
+    return drawn(1, 2, 3.4, draw)
 
 
 def estimate_histogram(errors_m, normality):

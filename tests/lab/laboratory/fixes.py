@@ -7,8 +7,6 @@ import numpy as np
 
 from .road import read_positions, read_roads
 
-REGRESSION_COLUMNS = "regressions.csv"
-
 
 @dataclasses.dataclass
 class PairFixes:
@@ -80,5 +78,5 @@ def read_estimates(run, method):
 
 def read_regressions(run):
     """Observations of sample tracklets, or None without them."""
-    path = run.evaluation.result / REGRESSION_COLUMNS
+    path = run.evaluation.result / "regressions.csv"
     return read_table(path) if path.is_file() else None

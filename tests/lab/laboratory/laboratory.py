@@ -8,6 +8,7 @@ import numpy as np
 from . import claims as paper_claims
 from . import figures, paper, report, results, statistics, studies, tables
 from .fixes import column, read_estimates, read_regressions, read_run
+from .regressions import regression_table, samples_of
 from .road import read_roads
 from .runs import Planner
 from .pairs import study_pairs
@@ -39,6 +40,8 @@ class Laboratory:
         self.estimates = {method: errors for method in self.methods
                           if len(errors := self.estimate_errors(method))}
         self.normality = {method: statistics.normality_of(errors) for method, errors in self.estimates.items()}
+        self.samples_from, self.samples = next(
+            ((run.pair.name, samples_of(rows)) for run in self.runs if (rows := read_regressions(run))), ("", []))
         self.studies = [studies.outcome(studies.STUDIES[study], runs, self.query_drive)
                         for study, runs in self.study_runs.items()]
         if "lateral" in self.study_names:
@@ -66,7 +69,8 @@ class Laboratory:
         out = pathlib.Path(out)
         out.mkdir(parents=True, exist_ok=True)
         by_pair = tables.table_1_by_pair(self.fixes)
-        for table in [*self.tables, by_pair, self.latency(), *(study.table for study in self.studies)]:
+        more = [regression_table(self.samples)] if self.samples else []
+        for table in [*self.tables, *more, by_pair, self.latency(), *(study.table for study in self.studies)]:
             (out / f"{table.name}.txt").write_text(table.as_text(), encoding="utf-8")
             (out / f"{table.name}.csv").write_text(table.as_csv(), encoding="utf-8")
         (out / "claims.txt").write_text(self.claims_text(), encoding="utf-8")
@@ -153,4 +157,10 @@ class Laboratory:
         return [*parts, report.table(self.tables[3])] if parts else []
 
     def regression_figures(self):
-        return []
+        if not self.samples:
+            return []
+        return [report.figure(
+            f"Figure 7: sample tracklets of {self.samples_from}", figures.regressions(self.samples),
+            "Where a feature was seen at which scale, and its regression line. Left as published, right as milepost has it: "
+            "the scale of a feature grows faster the nearer it comes, its inverse evenly."),
+            report.table(regression_table(self.samples))]

@@ -44,6 +44,11 @@ def chosen_methods(wanted):
     return [method for method in known if method in wanted] if wanted else known
 
 
+def name_with(name, settings):
+    """malaga, malaga-max-features-125."""
+    return "-".join([name, *(word.lstrip("-") for word in settings)])
+
+
 @dataclasses.dataclass
 class Run:
     """A pair's evaluation with one setting of the mapper."""
@@ -51,8 +56,6 @@ class Run:
     pair: object
     map_stage: Stage
     evaluation: Stage
-    map_drive: pathlib.Path = None
-    query_drive: pathlib.Path = None
 
     @property
     def map_file(self):
@@ -70,8 +73,8 @@ class Planner:
     def run(self, pair, mapper_settings=(), methods=None, estimates=False):
         """`mapper_settings` are words of `milepost-mapper build`; `methods` are the planner's by default."""
         mapping = self.map(pair, tuple(mapper_settings))
-        evaluation = self.evaluate(pair, mapping, tuple(methods or self.methods),
-                                   self.estimates if estimates else ())
+        evaluation = self.evaluate(pair, name_with(pair.name, mapper_settings), mapping,
+                                   tuple(methods or self.methods), self.estimates if estimates else ())
         return Run(pair, mapping, evaluation)
 
     def simulate(self, place):
@@ -83,17 +86,17 @@ class Planner:
         def plan():
             needs, drive = self.drive(pair.place, pair.map_drive)
             return Stage(
-                "map", pathlib.PurePath(pair.map_drive).name, program("milepost-mapper"), settings,
+                "map", name_with(pathlib.PurePath(pair.map_drive).name, settings), program("milepost-mapper"), settings,
                 lambda out, threads: ["build", "--drive", drive(), "--map", out / "drive.map", "--lab",
                                       "--jobs", threads, *settings],
                 lambda: [drive()], needs)
         return self.once(("map", pair.place, pair.map_drive, settings), plan)
 
-    def evaluate(self, pair, mapping, methods, flags):
+    def evaluate(self, pair, name, mapping, methods, flags):
         def plan():
             needs, drive = self.drive(pair.place, pair.query_drive)
             return Stage(
-                "evaluate", pair.name, program("milepost-client"), (*methods, *flags),
+                "evaluate", name, program("milepost-client"), (*methods, *flags),
                 lambda out, threads: ["evaluate", "--map", mapping.result / "drive.map", "--drive", drive(),
                                       "--out", out, *flags, "--method", *methods],
                 lambda: [mapping.result / "drive.map", drive()], (mapping, *needs))

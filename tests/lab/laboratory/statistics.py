@@ -153,6 +153,21 @@ def kolmogorov_distance(values, mean, std):
     return float(max(np.max(ranks[1:] - normal), np.max(normal - ranks[:-1])))
 
 
+@dataclasses.dataclass(frozen=True)
+class LinearFit:
+    """y = intercept + slope x by least squares, and its coefficient of determination (the paper's Eq. 14)."""
+
+    intercept: float
+    slope: float
+    r_squared: float
+
+
+def linear_fit(x, y):
+    slope, intercept = np.polyfit(x, y, 1)
+    residual = y - (intercept + slope * x)
+    return LinearFit(float(intercept), float(slope), float(1 - (residual ** 2).sum() / ((y - y.mean()) ** 2).sum()))
+
+
 def running_mean(along_m, values, window_m):
     """Mean of the values within half a window of each along; NaN values take no part."""
     known = np.isfinite(values) & np.isfinite(along_m)
