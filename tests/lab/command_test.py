@@ -49,7 +49,8 @@ class Command(unittest.TestCase):
             self.assertTrue(0 < float(row["mean_m"]) < 0.5, row)
             self.assertGreater(float(row["map_kB_per_m"]), 0)
         self.assertEqual(rows["tracklet-regression-kalman"]["paper_mean_m"], "0.33")
-        for name in ("report.html", "table2.txt", "calibration.csv", "claims.txt", "study-lateral.csv", "table1-pairs.txt"):
+        for name in ("report.html", "table2.txt", "calibration.csv", "claims.txt", "study-lateral.csv",
+                     "table1-pairs.txt"):
             self.assertGreater((out / name).stat().st_size, 100, name)
         self.assertIn(f"| milepost | **{rows['milepost']['mean_m']}** |", results.read_text())
 

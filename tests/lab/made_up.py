@@ -4,7 +4,8 @@ import numpy as np
 from laboratory.fixes import PairFixes
 
 
-def fixes(pair, method, errors_m, sigma_m=1.0, curved=None, lateral_m=None, kb_per_m=4.0, length_m=100.0, map_name=None):
+def fixes(pair, method, errors_m, sigma_m=1.0, curved=None, lateral_m=None, kb_per_m=4.0, length_m=100.0,
+          map_name=None):
     """A PairFixes with these errors, frames one metre apart; NaN: not localized."""
     errors_m = np.asarray(errors_m, float)
     count = len(errors_m)

@@ -94,11 +94,11 @@ class Stages(unittest.TestCase):
         self.assertEqual(len(self.results()), 1)  # what the failed one left is gone
 
     def test_a_killed_run_leaves_no_result_and_the_next_goes_on(self):
-        code = ("import sys; sys.argv = ['', '-v']\n"
-                "from stages_test import Stages\n"
+        code = ("from stages_test import Stages\n"
                 "import pathlib\n"
                 "test = Stages(); test.folder = pathlib.Path(%r)\n"
-                "test.program, test.input, test.calls_file = (test.folder / n for n in ('program', 'input.txt', 'calls'))\n"
+                "files = (test.folder / name for name in ('program', 'input.txt', 'calls'))\n"
+                "test.program, test.input, test.calls_file = files\n"
                 "test.run_stages(test.stage(), test.stage('sleep'), jobs=1)\n" % str(self.folder))
         run = subprocess.Popen([sys.executable, "-B", "-c", code], cwd=pathlib.Path(__file__).parent,
                                start_new_session=True)

@@ -25,8 +25,9 @@ DEGREES_PER_M = 1 / 111319.49  # of longitude on the equator
 def write_map(path):
     """A map of one segment of 40 m that runs east along the equator, with 80 tracklets."""
     with sqlite3.connect(path) as store:
-        store.executescript("CREATE TABLE segments (id, length_m); CREATE TABLE tiles (layer, items);"
-                            "CREATE TABLE vertices (segment, position, latitude_deg, longitude_deg, altitude_m, along_m);")
+        store.executescript(
+            "CREATE TABLE segments (id, length_m); CREATE TABLE tiles (layer, items);"
+            "CREATE TABLE vertices (segment, position, latitude_deg, longitude_deg, altitude_m, along_m);")
         store.execute("INSERT INTO segments VALUES ('road', 40)")
         store.executemany("INSERT INTO tiles VALUES (?, ?)", [("tracklets", 50), ("tracklets", 30), ("other", 9)])
         store.executemany("INSERT INTO vertices VALUES ('road', ?, 0, ?, 0, ?)",

@@ -63,8 +63,7 @@ def svg_of(figure):
     svg = re.sub(r"\s*<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     svg = re.sub(r"<g id=\"[^\"]*\"", "<g", svg)  # nothing refers to them, and they are not unique in the page
     # The page's font; the weight and size are the drawing's.
-    svg = re.sub(r"font: (?:(\d+) )?([\d.]+px) [^;\"]*", lambda found: f"font-weight: {found[1] or 400}; font-size: {found[2]}",
-                 svg)
-    svg = re.sub(r"#[0-9a-f]{6}\b", lambda found: f"var({VARIABLES[found[0]]})" if found[0] in VARIABLES else found[0],
-                 svg)
+    svg = re.sub(r"font: (?:(\d+) )?([\d.]+px) [^;\"]*",
+                 lambda found: f"font-weight: {found[1] or 400}; font-size: {found[2]}", svg)
+    svg = re.sub("|".join(VARIABLES), lambda found: f"var({VARIABLES[found[0]]})", svg)
     return svg.replace("<svg ", '<svg class="drawing" role="img" ', 1)

@@ -4,7 +4,7 @@ from matplotlib import ticker
 from scipy import stats
 
 from . import paper
-from .drawing import DASHES, INK, MARKERS, MUTED, RULE, STAND_INS, colour, drawn
+from .drawing import DASHES, INK, MARKERS, MUTED, STAND_INS, colour, drawn
 from .regressions import MODELS
 from .statistics import running_mean
 from .tables import methods_of, of_method, on_road, pairs_of
@@ -143,8 +143,8 @@ def estimate_histogram(errors_m, normality):
         grid_m = np.linspace(-reach_m, reach_m, 241)
         histogram.plot(grid_m, stats.norm.pdf(grid_m, 0, normality.std), color=INK,
                        label=f"normal, σ = {normality.std:.2f} m (all)")
-        histogram.plot(grid_m, stats.norm.pdf(grid_m, 0, normality.core_std), color=STAND_INS["m1"], linestyle=(0, (5, 1.5)),
-                       label=f"normal, σ = {normality.core_std:.2f} m (bulk)")
+        histogram.plot(grid_m, stats.norm.pdf(grid_m, 0, normality.core_std), color=STAND_INS["m1"],
+                       linestyle=(0, (5, 1.5)), label=f"normal, σ = {normality.core_std:.2f} m (bulk)")
         histogram.set_title(f"{len(errors_m)} estimates, {100 * beyond:.1f} % beyond the edges")
         histogram.set_xlabel("error of a tracklet's estimate v (m)")
         histogram.set_ylabel("density (1/m)")
@@ -156,7 +156,8 @@ def estimate_histogram(errors_m, normality):
         quantiles.plot([-3, 3], [-3 * normality.std, 3 * normality.std], color=INK)
         quantiles.plot([-3, 3], [-3 * normality.core_std, 3 * normality.core_std], color=STAND_INS["m1"],
                        linestyle=(0, (5, 1.5)))
-        quantiles.plot(normal, np.quantile(errors_m, shares), ".", color=STAND_INS["m5"], markersize=4, markeredgewidth=0)
+        quantiles.plot(normal, np.quantile(errors_m, shares), ".", color=STAND_INS["m5"], markersize=4,
+                       markeredgewidth=0)
         quantiles.set_title("quantiles (straight: normal)")
         quantiles.set_xlabel("quantile of the standard normal")
         quantiles.set_ylabel("quantile of the errors (m)")

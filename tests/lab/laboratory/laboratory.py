@@ -14,9 +14,10 @@ from .runs import Planner
 from .pairs import study_pairs
 
 CLAIMS_NOTE = (
-    f"Differences of means (or variances) over the frames that both methods localized, with the 95 % interval of a "
+    "Differences of means (or variances) over the frames that both methods localized, with the 95 % interval of a "
     f"paired bootstrap: {statistics.BOOTSTRAP_DRAWS} draws of blocks of {statistics.BLOCK_FRAMES} neighbouring frames, "
-    "since neighbours err alike; the seed is fixed. A claim that one is better is held when the whole interval says so.")
+    "since neighbours err alike; the seed is fixed. A claim that one is better is held when the whole interval says "
+    "so.")
 
 
 class Laboratory:
@@ -152,8 +153,9 @@ class Laboratory:
                 parts.append(report.figure(
                     f"Figure 8: errors of single tracklets, {method}",
                     figures.estimate_histogram(self.estimates[method], self.normality[method]),
-                    "Left: the errors of the single tracklets' estimates against normal densities of mean zero, with the "
-                    "deviation of all of them, and with that of the bulk. Right: their quantiles against the normal's."))
+                    "Left: the errors of the single tracklets' estimates against normal densities of mean zero, with "
+                    "the deviation of all of them, and with that of the bulk. Right: their quantiles against the "
+                    "normal's."))
         return [*parts, report.table(self.tables[3])] if parts else []
 
     def regression_figures(self):
@@ -161,6 +163,6 @@ class Laboratory:
             return []
         return [report.figure(
             f"Figure 7: sample tracklets of {self.samples_from}", figures.regressions(self.samples),
-            "Where a feature was seen at which scale, and its regression line. Left as published, right as milepost has it: "
-            "the scale of a feature grows faster the nearer it comes, its inverse evenly."),
+            "Where a feature was seen at which scale, and its regression line. Left as published, right as milepost "
+            "has it: the scale of a feature grows faster the nearer it comes, its inverse evenly."),
             report.table(regression_table(self.samples))]

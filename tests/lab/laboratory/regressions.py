@@ -36,8 +36,8 @@ def regression_table(samples):
     """The lines of figure 7: along = offset + slope f(s)."""
     table = Table(
         "regressions", "Lines of figure 7",
-        "Along = offset + slope × s, with the scale s in pixels (as published), or offset + slope × (-1/s), which is exact "
-        "for a feature of fixed size and a straight approach.",
+        "Along = offset + slope × s, with the scale s in pixels (as published), or offset + slope × (-1/s), which is "
+        "exact for a feature of fixed size and a straight approach.",
         [("tracklet", "", None), ("seen in frames", "", 0), ("over", "m", 1), ("offset", "m", 1), ("slope", "m/px", 2),
          ("R²", "", 4), ("offset, inverse", "m", 1), ("slope, inverse", "m px", 1), ("R², inverse", "", 4)])
     for sample in samples:

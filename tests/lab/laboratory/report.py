@@ -51,8 +51,8 @@ def page_style():
 
 
 def legend(methods):
-    return '<p class="legend">' + " ".join(
-        f'<span class="{CLASSES.get(method, "m7")}"><i></i>{html.escape(method)}</span>' for method in methods) + "</p>\n"
+    names = (f'<span class="{CLASSES.get(method, "m7")}"><i></i>{html.escape(method)}</span>' for method in methods)
+    return f'<p class="legend">{" ".join(names)}</p>\n'
 
 
 def figure(title, drawing, caption, methods=()):
@@ -67,10 +67,11 @@ def table(of):
 
 def claims(of, note):
     items = "".join(
-        f'<li><p class="verdict {claim.verdict.replace(" ", "-")}">{claim.verdict}</p><div><p>{html.escape(claim.text)}</p>'
-        f'<p class="figures">{html.escape(claim.figures)}</p></div></li>\n' for claim in of)
-    return f'<section>\n<h2>The paper\'s claims, one by one</h2>\n<ul class="claims">\n{items}</ul>\n' \
-           f'<p class="note">{html.escape(note)}</p>\n</section>\n'
+        f'<li><p class="verdict {claim.verdict.replace(" ", "-")}">{claim.verdict}</p>'
+        f'<div><p>{html.escape(claim.text)}</p><p class="figures">{html.escape(claim.figures)}</p></div></li>\n'
+        for claim in of)
+    return (f'<section>\n<h2>The paper\'s claims, one by one</h2>\n<ul class="claims">\n{items}</ul>\n'
+            f'<p class="note">{html.escape(note)}</p>\n</section>\n')
 
 
 def part(title):
