@@ -34,7 +34,7 @@ struct Fix {
   std::optional<double> along_m;     // [0, length of the segment]
   double sigma_m = 0;                // one standard deviation, with along_m
   std::optional<GeoPoint> position;  // of along_m on the segment's line
-  int matches = 0;                   // tracklets that agreed on the measurement
+  int matches = 0;                   // features that agreed on the measurement
 };
 
 // A coarse position, of a receiver of satellite signals.
@@ -45,10 +45,12 @@ struct CoarsePosition {
 };
 
 // One frame of the query camera. Its features are asked for once the map, and with it the
-// parameters of the extractor, is known; the reference is used during localize() only.
+// parameters of the extractor, is known; the reference is used during localize() only. Methods that
+// compare whole images ask for the descriptor of schema/feature/wisurf.h, and others never do.
 struct QueryFrame {
   double timestamp_s = 0;
   std::function<const FeatureSet&(const FeatureParameters&)> features;
+  std::function<const ImageDescriptor&()> image = {};
 };
 
 struct QueryCamera {

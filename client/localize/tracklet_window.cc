@@ -17,10 +17,9 @@ Result<ObservationTile> decode_tracklets(ByteView frame) {
 
 }  // namespace
 
-TrackletWindow::TrackletWindow(LayerSource from, TrackletItems items,
-                               const WindowSettings& settings)
+TrackletWindow::TrackletWindow(LayerSource from, LayerItems items, const WindowSettings& settings)
     : tiles_(std::move(from), settings.reach,
-             items == TrackletItems::observations ? decode_observations : decode_tracklets),
+             items == LayerItems::observations ? decode_observations : decode_tracklets),
       settings_(settings) {
   rebuild();
 }

@@ -7,6 +7,7 @@
 
 #include "client/localize/tile_window.h"
 #include "schema/feature/descriptor_index.h"
+#include "schema/tile/layer_items.h"
 #include "schema/tile/observation.h"
 
 namespace milepost {
@@ -16,13 +17,11 @@ struct WindowSettings {
   IndexSettings index;
 };
 
-// What a layer keeps of each tracklet: one descriptor, or every observation (FORMAT.md 2.4).
-enum class TrackletItems { tracklets, observations };
-
 // Not safe to use from several threads at once.
 class TrackletWindow {
  public:
-  TrackletWindow(LayerSource from, TrackletItems items, const WindowSettings& settings);
+  // REQUIRES: `items` are tracklets or observations.
+  TrackletWindow(LayerSource from, LayerItems items, const WindowSettings& settings);
 
   // Makes sure that every tracklet whose along range meets `range` is held; fetches and lets go.
   // After an error what was held is held still. Errors: those of MapSource::tiles, corrupt (a

@@ -13,6 +13,11 @@ namespace {
 
 using OnProgress = std::function<bool(const BuildProgress&)>;
 
+struct NamedBuilder {
+  std::string layer;
+  std::unique_ptr<LayerBuilder> builder;
+};
+
 // Follows the features of one segment's frames through to its tiles.
 class SegmentBuilder {
  public:
@@ -28,11 +33,12 @@ class SegmentBuilder {
 
   Status run(int jobs, MapWriter& map, BuildReport& report, BuildProgress& progress,
              const OnProgress& on_progress) {
-    FramePipeline features(drive_, plan_.frame_indices, settings_.feature, jobs);
+    FramePipeline frames(drive_, plan_.frame_indices, settings_.feature, settings_.lab, jobs);
     for (const double along_m : plan_.line.along_m()) {
-      const Result<FeatureSet> frame = features.next();
+      const Result<ExtractedFrame> frame = frames.next();
       if (!frame) return frame.error();
-      const std::vector<Track> ended = follower_.add(*frame, along_m);
+      for (const NamedBuilder& layer : layers_) layer.builder->add_frame(*frame, along_m);
+      const std::vector<Track> ended = follower_.add(frame->features, along_m);
       const Status written = add_and_write(ended, follower_.oldest_open_along_m(), map, report);
       if (!written.ok()) return written;
       ++progress.frames_done;
@@ -46,15 +52,10 @@ class SegmentBuilder {
   }
 
  private:
-  struct NamedBuilder {
-    std::string layer;
-    std::unique_ptr<LayerBuilder> builder;
-  };
-
   Status add_and_write(const std::vector<Track>& ended, double complete_until_m, MapWriter& map,
                        BuildReport& report) {
     for (const NamedBuilder& layer : layers_) {
-      layer.builder->add(ended);
+      layer.builder->add_tracks(ended);
       const Result<std::vector<StoredTile>> tiles = layer.builder->take_complete(complete_until_m);
       if (!tiles) return tiles.error();
       for (const StoredTile& tile : *tiles) {

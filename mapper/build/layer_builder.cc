@@ -31,7 +31,7 @@ class TrackletLayerBuilder : public LayerBuilder {
                        double tile_length_m)
       : regression_(regression), segment_(std::move(segment)), assembler_(tile_length_m) {}
 
-  void add(const std::vector<Track>& tracks) override {
+  void add_tracks(const std::vector<Track>& tracks) override {
     for (const Track& track : tracks) {
       if (const auto tracklet = tracklet_from_track(track, regression_)) assembler_.add(*tracklet);
     }
@@ -56,7 +56,7 @@ class ObservationLayerBuilder : public LayerBuilder {
                           double tile_length_m)
       : regression_(regression), segment_(std::move(segment)), assembler_(tile_length_m) {}
 
-  void add(const std::vector<Track>& tracks) override {
+  void add_tracks(const std::vector<Track>& tracks) override {
     for (const Track& track : tracks) {
       if (const auto tracklet = tracklet_from_track(track, regression_)) {
         assembler_.add({*tracklet, track});
@@ -77,12 +77,42 @@ class ObservationLayerBuilder : public LayerBuilder {
   TileAssembler<ObservedTracklet> assembler_;
 };
 
+class FrameLayerBuilder : public LayerBuilder {
+ public:
+  FrameLayerBuilder(const FrameParts& parts, std::string segment, double tile_length_m)
+      : parts_(parts), segment_(std::move(segment)), assembler_(tile_length_m) {}
+
+  void add_frame(const ExtractedFrame& frame, double along_m) override {
+    DatabaseFrame stored{along_m, {}, std::nullopt};
+    if (parts_.features) stored.features = frame.features;
+    if (parts_.image) stored.image = frame.image;
+    assembler_.add(std::move(stored));
+  }
+
+  Result<std::vector<StoredTile>> take_complete(double along_m) override {
+    const auto encode = [this](std::uint32_t index, std::vector<DatabaseFrame> frames) {
+      return encode_frames({segment_, index, std::move(frames)});
+    };
+    return stored(assembler_, along_m, encode, decode_frames);
+  }
+
+ private:
+  FrameParts parts_;
+  std::string segment_;
+  TileAssembler<DatabaseFrame> assembler_;
+};
+
 }  // namespace
 
 std::unique_ptr<LayerBuilder> make_layer_builder(const Layer& layer, const std::string& segment,
                                                  double tile_length_m) {
-  if (layer.items == LayerItems::observations) {
-    return std::make_unique<ObservationLayerBuilder>(layer.regression, segment, tile_length_m);
+  switch (layer.items) {
+    case LayerItems::observations:
+      return std::make_unique<ObservationLayerBuilder>(layer.regression, segment, tile_length_m);
+    case LayerItems::frames:
+      return std::make_unique<FrameLayerBuilder>(layer.parts, segment, tile_length_m);
+    case LayerItems::tracklets:
+      break;
   }
   return std::make_unique<TrackletLayerBuilder>(layer.regression, segment, tile_length_m);
 }

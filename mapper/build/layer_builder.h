@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mapper/build/layers.h"
+#include "mapper/frames/frame_pipeline.h"
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
 #include "schema/tile/observation.h"
@@ -26,8 +27,10 @@ class LayerBuilder {
  public:
   virtual ~LayerBuilder() = default;
 
+  // Takes in the next frame, taken at `along_m`, which is greater than that of the frame before.
+  virtual void add_frame(const ExtractedFrame& /*frame*/, double /*along_m*/) {}
   // Takes in tracks that have ended.
-  virtual void add(const std::vector<Track>& tracks) = 0;
+  virtual void add_tracks(const std::vector<Track>& /*tracks*/) {}
   // The tiles that nothing beginning at `along_m` or later belongs to, ascending; each once.
   // Errors: invalid_input for a tile that holds more than the format allows.
   virtual Result<std::vector<StoredTile>> take_complete(double along_m) = 0;

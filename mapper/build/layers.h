@@ -6,20 +6,25 @@
 
 #include "mapper/build/settings.h"
 #include "schema/drive/drive.h"
+#include "schema/tile/layer_items.h"
 
 namespace milepost {
 
-enum class LayerItems { tracklets, observations };
+struct FrameParts {
+  bool features = false;  // all of each frame
+  bool image = false;     // the descriptor of the whole image
+};
 
 struct Layer {
   std::string name;
   LayerItems items = LayerItems::tracklets;
   RegressionSettings regression;  // of tracklets, with or without their observations
+  FrameParts parts;               // of frames
 };
 
 // `tracklets`, which serves the default method, and with settings.lab: `tracklets-scale`, the
-// regression on scale as the paper publishes it, and `observations`, every observation of the same
-// tracklets.
+// regression on scale as the paper publishes it; `observations`, every observation of the same
+// tracklets; `frames`, all features of each frame; `wisurf`, a descriptor of each whole frame.
 std::vector<Layer> layers_of(const BuildSettings& settings);
 
 // The layer's parameters as the map keeps them (FORMAT.md 2.4): a JSON object. The camera's focal

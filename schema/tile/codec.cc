@@ -21,11 +21,15 @@ Bytes encode_observations(const ObservationTile& tile) {
   return compress_frame(table_from_observations(tile));
 }
 
+Bytes encode_frames(const FrameTile& tile) { return compress_frame(table_from_frames(tile)); }
+
 Result<TrackletTile> decode_tile(ByteView frame) { return decode(frame, tile_from_table); }
 
 Result<ObservationTile> decode_observations(ByteView frame) {
   return decode(frame, observations_from_table);
 }
+
+Result<FrameTile> decode_frames(ByteView frame) { return decode(frame, frames_from_table); }
 
 Result<std::size_t> stored_frame_length(ByteView stream) { return frame_length(stream); }
 

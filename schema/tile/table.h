@@ -4,6 +4,7 @@
 
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
+#include "schema/tile/database_frame.h"
 #include "schema/tile/observation.h"
 #include "schema/tile/tracklet.h"
 
@@ -14,10 +15,12 @@ inline constexpr std::size_t kMaxTrackletsPerTile = 65536;
 // The same tile gives the same bytes. REQUIRES: as encode_tile.
 Bytes table_from_tile(const TrackletTile& tile);
 Bytes table_from_observations(const ObservationTile& tile);
+Bytes table_from_frames(const FrameTile& tile);
 
 // Never trusts a byte. REQUIRES: the bytes are aligned to 8.
 // Errors: corrupt, naming the paragraph broken.
 Result<TrackletTile> tile_from_table(ByteView bytes);
 Result<ObservationTile> observations_from_table(ByteView bytes);
+Result<FrameTile> frames_from_table(ByteView bytes);
 
 }  // namespace milepost

@@ -28,12 +28,12 @@ Track approached_feature(double feature_along_m, double start_m, std::size_t fra
 
 TEST(LayerBuilder, TheLaboratorysLayersHoldTheSameTracklets) {
   const RegressionSettings published = {ScaleModel::scale, 0.8};
-  const auto averaged = make_layer_builder({"a", LayerItems::tracklets, published}, "s", 20);
-  const auto observed = make_layer_builder({"o", LayerItems::observations, published}, "s", 20);
+  const auto averaged = make_layer_builder({"a", LayerItems::tracklets, published, {}}, "s", 20);
+  const auto observed = make_layer_builder({"o", LayerItems::observations, published, {}}, "s", 20);
   std::vector<Track> tracks = {approached_feature(80, 22, 4), approached_feature(60, 20, 6)};
   tracks.push_back(approached_feature(60, 20, 3));
   tracks.back()[1].feature.scale_px = 90;  // no line fits: in neither layer
-  for (const auto& builder : {averaged.get(), observed.get()}) builder->add(tracks);
+  for (const auto& builder : {averaged.get(), observed.get()}) builder->add_tracks(tracks);
 
   const auto of_averaged = averaged->take_complete(kEnd);
   const auto of_observed = observed->take_complete(kEnd);
@@ -60,9 +60,40 @@ TEST(LayerBuilder, TheLaboratorysLayersHoldTheSameTracklets) {
   }
 }
 
+TEST(LayerBuilder, FramesKeepWhatTheirLayerIsFor) {
+  ExtractedFrame frame;
+  frame.features.features.push_back({10, 20, 3});
+  frame.features.descriptors.resize(1);
+  frame.image[7] = 0.5F;
+  const auto features =
+      make_layer_builder({"f", LayerItems::frames, {}, {.features = true}}, "s", 20);
+  const auto images = make_layer_builder({"w", LayerItems::frames, {}, {.image = true}}, "s", 20);
+  for (const auto& builder : {features.get(), images.get()}) {
+    for (const double along_m : {0.0, 19.0, 21.0}) builder->add_frame(frame, along_m);
+  }
+  const auto of_features = features->take_complete(20);
+  ASSERT_TRUE(of_features.ok());
+  ASSERT_EQ(of_features->size(), 1U);
+  EXPECT_EQ(of_features->front().items, 2U);
+  EXPECT_EQ(of_features->front().along.to_m, 19);
+  const auto featured = decode_frames(of_features->front().frame);
+  ASSERT_TRUE(featured.ok());
+  EXPECT_EQ(featured->frames[1].along_m, 19);
+  EXPECT_EQ(featured->frames[1].features.features[0].scale_px, 3);
+  EXPECT_FALSE(featured->frames[1].image.has_value());
+  const auto of_images = images->take_complete(kEnd);
+  ASSERT_TRUE(of_images.ok());
+  ASSERT_EQ(of_images->size(), 2U);
+  const auto imaged = decode_frames(of_images->at(1).frame);
+  ASSERT_TRUE(imaged.ok());
+  EXPECT_EQ(imaged->frames[0].image, frame.image);
+  EXPECT_EQ(imaged->frames[0].features.size(), 0U);
+}
+
 TEST(LayerBuilder, RefusesATileThatNoReaderWouldTake) {
-  const auto builder = make_layer_builder({"o", LayerItems::observations, {}}, "s", 20);
-  builder->add(std::vector<Track>(4000, approached_feature(300, 0, 40)));  // 20 MB of descriptors
+  const auto builder = make_layer_builder({"o", LayerItems::observations, {}, {}}, "s", 20);
+  builder->add_tracks(
+      std::vector<Track>(4000, approached_feature(300, 0, 40)));  // 20 MB of descriptors
   const auto tiles = builder->take_complete(kEnd);
   ASSERT_FALSE(tiles.ok());
   EXPECT_EQ(tiles.error().code, ErrorCode::invalid_input);

@@ -9,8 +9,10 @@ FIX_COLUMNS = ["timestamp_s", "filename", "status", "segment", "along_m", "sigma
                "longitude_deg", "matches", "latency_ms"]
 SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m", "p95_error_m", "frames",
                 "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99"]
-METHODS = ["tracklet-matching", "tracklet-regression", "tracklet-regression-kalman", "tracklet-regression-particle",
-           "tracklet-regression-unaveraged", "milepost"]
+# Every method, and a bound on its mean error in metres: those that interpolate nothing are worse.
+METHODS = {"wisurf": 5.0, "scale-only": 1.5, "tracklet-matching": 1.0, "tracklet-regression": 1.0,
+           "tracklet-regression-kalman": 1.0, "tracklet-regression-particle": 1.0,
+           "tracklet-regression-unaveraged": 1.0, "milepost": 0.5}
 STATUSES = {"initializing", "tracking", "predicted", "lost", "off-map"}
 
 
@@ -65,17 +67,18 @@ class Line(CommandTest):
                          *self.over_http(server.url))
         self.expect_done(result)
         summary = json.loads((out / "summary.json").read_text())
-        self.assertEqual([entry["method"] for entry in summary], METHODS)
+        self.assertEqual([entry["method"] for entry in summary], list(METHODS))
         frames = rows_of(self.query / "trajectory.csv")
         for entry in summary:
             self.assertLessEqual(set(SUMMARY_KEYS), set(entry))
             self.assertEqual(entry["frames"], len(frames))
             self.assertGreaterEqual(entry["localized_frames"], 0.9 * len(frames))
-            self.assertGreater(entry["map_kb_per_m"], 0.1)
-            self.assertLess(entry["mean_error_m"], 1.0)
+            self.assertGreater(entry["map_kb_per_m"], 0.02)
+            self.assertLess(entry["mean_error_m"], METHODS[entry["method"]], entry["method"])
             self.check_against_rows(entry, rows_of(out / f"fixes-{entry['method']}.csv"))
         error_m = {entry["method"]: entry["mean_error_m"] for entry in summary}
         self.assertLess(error_m["milepost"], error_m["tracklet-regression"])
+        self.assertLess(error_m["tracklet-regression"], error_m["scale-only"])
         self.assertAlmostEqual(error_m["tracklet-regression-particle"], error_m["tracklet-regression-kalman"], delta=0.1)
         report = (out / "report.html").read_text()
         self.assertEqual(report.count("<table"), 1)
@@ -97,9 +100,11 @@ class Line(CommandTest):
 
     def test_refuses_methods_that_the_map_does_not_serve(self):
         self.build_map()
-        result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
-                     "--method", "tracklet-regression")
-        self.expect_refused(result, 1, "tracklets-scale", "--lab")
+        for method, layer in {"wisurf": "wisurf", "scale-only": "frames", "tracklet-matching": "observations",
+                              "tracklet-regression": "tracklets-scale"}.items():
+            result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
+                         "--method", method)
+            self.expect_refused(result, 1, f"'{layer}'", "--lab")
         result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
                      "--method", "magic")
         self.expect_refused(result, 1, "'magic' is no method", "milepost")

@@ -42,11 +42,11 @@ class Matching : public ::testing::Test {
       averaged.tracklets.push_back(observed.tracklets.back().tracklet);
     }
     tracks_ = observed.tracklets;
-    observed_ = window_of(encode_observations(observed), TrackletItems::observations);
-    averaged_ = window_of(encode_tile(averaged), TrackletItems::tracklets);
+    observed_ = window_of(encode_observations(observed), LayerItems::observations);
+    averaged_ = window_of(encode_tile(averaged), LayerItems::tracklets);
   }
 
-  static std::unique_ptr<TrackletWindow> window_of(Bytes frame, TrackletItems items) {
+  static std::unique_ptr<TrackletWindow> window_of(Bytes frame, LayerItems items) {
     auto source = std::make_shared<testing::LayerOfTiles>(
         std::vector<testing::LayerOfTiles::Tile>{{{10, 20}, std::move(frame)}});
     auto window = std::make_unique<TrackletWindow>(LayerSource{source, {}, "s", "l"}, items,
