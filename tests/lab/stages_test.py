@@ -16,6 +16,7 @@ PROGRAM = """#!/bin/sh
 echo called >>"$1"
 cat "$2" >"$3/answer"
 [ "$4" != fail ] || { echo "input.txt, line 3: is wrong; mend it" >&2; exit 1; }
+[ "$4" != meddle ] || echo "# other" >>"$0"
 [ "$4" != sleep ] || exec sleep 60
 """
 
@@ -92,6 +93,11 @@ class Stages(unittest.TestCase):
         self.assertEqual([each.name[:len(PARTIAL)] for each in self.results()], [PARTIAL])
         self.run_stages(self.stage())
         self.assertEqual(len(self.results()), 1)  # what the failed one left is gone
+
+    def test_a_program_that_is_built_anew_meanwhile_has_no_result(self):
+        with self.assertRaisesRegex(LabError, "kind name: .*changed while it ran"):
+            self.run_stages(self.stage("meddle"))
+        self.assertEqual([each.name[:len(PARTIAL)] for each in self.results()], [PARTIAL])
 
     def test_a_killed_run_leaves_no_result_and_the_next_goes_on(self):
         code = ("from stages_test import Stages\n"

@@ -105,31 +105,34 @@ class Cache:
 
     def complete(self, stage, threads):
         """Finds the stage's result in the cache, or makes it."""
-        folder = self.folder / f"{stage.kind}-{stage.name}-{self.key(stage)}"
+        key = self.key(stage, self.digest)
+        folder = self.folder / f"{stage.kind}-{stage.name}-{key}"
         if folder.is_dir():
             stage.cached = True
         else:
-            self.make(stage, folder, threads)
+            self.make(stage, key, folder, threads)
         stage.seconds = json.loads((folder / RECORD).read_text(encoding="utf-8"))["processor_seconds"]
         stage.result = folder
 
-    def key(self, stage):
+    def key(self, stage, digest):
         whole = hashlib.blake2b(digest_size=8)
-        for part in (stage.kind, *stage.settings, self.digest(stage.program),
-                     *(self.digest(path) for path in stage.inputs())):
+        for part in (stage.kind, *stage.settings, digest(stage.program), *map(digest, stage.inputs())):
             whole.update(f"{len(part)}:{part}".encode())
         return whole.hexdigest()
 
     def digest(self, path):
+        """Of a file or folder as it was when this run first saw it."""
         if path not in self.digests:
             self.digests[path] = digest_of_files(path)
         return self.digests[path]
 
-    def make(self, stage, folder, threads):
+    def make(self, stage, key, folder, threads):
         partial = pathlib.Path(tempfile.mkdtemp(prefix=PARTIAL, dir=self.folder))
         words = [str(word) for word in (stage.program, *stage.words(partial, threads))]
         began = time.monotonic()
         processor_seconds = self.call(stage, words, partial / LOG)
+        if self.key(stage, digest_of_files) != key:
+            raise LabError(f"{stage.kind} {stage.name}: the program or what it reads was changed while it ran; call again")
         self.say(f"{stage.kind} {stage.name}: {time.monotonic() - began:.0f} s")
         record = {"command": words, "processor_seconds": round(processor_seconds, 3)}
         (partial / RECORD).write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
