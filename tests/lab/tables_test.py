@@ -152,6 +152,11 @@ class Claims(unittest.TestCase):
             self.assertEqual(self.verdicts([fixes("a", method, np.full(30, float(error_m)))
                                             for method, error_m in zip(order, errors_m)])[text], verdict)
 
+    def test_a_steady_gain_that_is_tiny_is_none(self):
+        verdicts = self.verdicts([fixes("a", "tracklet-regression-kalman", np.full(60, 0.5)),
+                                  fixes("a", "tracklet-regression-particle", np.full(60, 0.499))])
+        self.assertEqual(verdicts["The particle filter adds nothing significant"], "held")
+
     def test_a_better_particle_filter_refutes(self):
         verdicts = self.verdicts([fixes("a", "tracklet-regression-kalman", np.full(60, 0.5)),
                                   fixes("a", "tracklet-regression-particle", np.full(60, 0.4))])

@@ -204,10 +204,12 @@ def means_beside_paper(fixes):
             published_m = paper.TABLE_1[method][1] if method in paper.TABLE_1 else None
             if len(errors_m):
                 axis.plot([errors_m.mean()], [place], "o", color=colour(method), markersize=9, markeredgewidth=0)
-                axis.annotate(f"{errors_m.mean():.2f}", (errors_m.mean(), place), (0, 7), textcoords="offset points",
-                              ha="center", fontsize=8, color=INK)
+                axis.annotate(f"{errors_m.mean():.2f}", (1.02, place), xycoords=("axes fraction", "data"), va="center",
+                              fontsize=8, color=INK)
             if published_m:
                 axis.plot([published_m], [place], "|", color=INK, markersize=15, markeredgewidth=1.6)
+                axis.annotate(f"paper {published_m:.2f}", (1.08, place), xycoords=("axes fraction", "data"),
+                              va="center", fontsize=8, color=MUTED)
         logarithmic(axis, "x")
         low_m, high_m = axis.get_xlim()
         axis.set_xlim(low_m / 1.5, high_m * 1.5)

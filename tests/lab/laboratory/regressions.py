@@ -9,6 +9,7 @@ from .tables import Table
 
 # Model -> what along is linear in.
 MODELS = {"scale": lambda scale_px: scale_px, "inverse scale": lambda scale_px: -1 / scale_px}
+MOST_SAMPLES = 7
 
 
 @dataclasses.dataclass(frozen=True)
@@ -22,9 +23,9 @@ class Sample:
 
 
 def samples_of(rows):
-    """Of a regressions.csv, one Sample a tracklet, in the file's order."""
+    """Of a regressions.csv, one Sample a tracklet, in the file's order, as many as a figure can tell apart."""
     samples = []
-    for tracklet in dict.fromkeys(row["tracklet"] for row in rows):
+    for tracklet in list(dict.fromkeys(row["tracklet"] for row in rows))[:MOST_SAMPLES]:
         own = [row for row in rows if row["tracklet"] == tracklet]
         along_m, scale_px = column(own, "along_m"), column(own, "scale_px")
         fits = {model: linear_fit(of(scale_px), along_m) for model, of in MODELS.items()}
