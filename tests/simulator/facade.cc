@@ -317,21 +317,41 @@ void paint_upper_floors(Canvas& canvas, double ground_floor_m, double floor_m, i
 // Rain that ran down from sills and soot near the ground.
 void paint_dirt(Canvas& canvas, cv::RNG& random) {
   cv::Mat& image = canvas.image();
+  const int per_m = canvas.texels_per_m();
   cv::Mat dirt(image.size(), CV_8UC3, cv::Scalar::all(255));
   for (int streak = 0; streak < static_cast<int>(canvas.width_m() * 4); ++streak) {
     const int x = random.uniform(0, image.cols);
     const int y = random.uniform(0, image.rows);
-    const int length = random.uniform(20, 160);
-    cv::line(dirt, {x, y}, {x + random.uniform(-4, 5), y + length},
-             cv::Scalar::all(random.uniform(150, 235)), random.uniform(2, 10));
+    const int length = static_cast<int>(random.uniform(0.3, 2.4) * per_m);
+    const int lean = static_cast<int>(random.uniform(-0.07, 0.07) * per_m);
+    const int width = std::max(1, static_cast<int>(random.uniform(0.03, 0.14) * per_m));
+    cv::line(dirt, {x, y}, {x + lean, y + length}, cv::Scalar::all(random.uniform(185, 245)),
+             width);
   }
-  cv::GaussianBlur(dirt, dirt, {}, 3);
+  cv::GaussianBlur(dirt, dirt, {}, std::max(0.5, per_m * 0.05));
   cv::multiply(image, dirt, image, 1.0 / 255);
-  const int soot = std::min(image.rows, canvas.texels_per_m());
+  const int soot = std::min(image.rows, per_m);
   for (int row = 0; row < soot; ++row) {
     cv::Mat line = image.row(image.rows - soot + row);
-    line *= 1.0 - 0.35 * row / soot;
+    line *= 1.0 - 0.3 * row / soot;
   }
+}
+
+// What firewalls are let for.
+void paint_advertisement(Canvas& canvas, double left, double top, double width, double height,
+                         cv::RNG& random) {
+  canvas.fill(left - 0.08, top - 0.08, width + 0.16, height + 0.16, {60, 62, 64});
+  canvas.fill(left, top, width, height, any_colour(random));
+  for (int shape = 0; shape < 7; ++shape) {
+    const cv::Scalar colour = any_colour(random);
+    const double x = left + width * random.uniform(0.1, 0.9);
+    const double y = top + height * random.uniform(0.15, 0.7);
+    const double room = std::min({x - left, left + width - x, y - top, top + height - y});
+    canvas.disc(x, y, room * random.uniform(0.3, 0.95), colour);
+  }
+  canvas.fill(left, top + height * 0.72, width, height * 0.28, {222, 226, 228});
+  canvas.write(any_of(kSignTexts, random), left + width * 0.08, top + height * 0.94, width * 0.8,
+               height * 0.18, any_of(kPaintColours, random));
 }
 
 }  // namespace
@@ -376,11 +396,20 @@ cv::Mat paint_side_wall(const WallSize& size, cv::RNG& random) {
   Canvas canvas(size, colour);
   paint_wall(canvas, colour, random);
   const WindowStyle style = any_window_style(random);
-  for (double base = height_m - 3.6; base > 3; base -= 3.1) {
-    if (random.uniform(0, 2) == 0) {
-      paint_window(canvas, random.uniform(0.8, width_m - 2.4), base - 2, style, random);
+  const int columns = static_cast<int>(width_m / 2.7);
+  for (double base = height_m - 0.6; base > 3; base -= 3.1) {
+    for (int column = 0; column < columns; ++column) {
+      if (random.uniform(0, 5) < 2) continue;
+      paint_window(canvas, width_m * (column + 0.5) / columns - style.width_m / 2,
+                   base - 0.6 - style.height_m, style, random);
     }
   }
+  if (width_m > 6 && height_m > 7 && random.uniform(0, 4) == 0) {
+    const double wide_m = random.uniform(2.6, 4.2);
+    paint_advertisement(canvas, random.uniform(0.6, width_m - wide_m - 0.6),
+                        height_m - random.uniform(4.6, 6.2), wide_m, wide_m * 0.75, random);
+  }
+  if (random.uniform(0, 2) == 0) paint_drainpipe(canvas, width_m - 0.4, random);
   paint_dirt(canvas, random);
   return canvas.image();
 }

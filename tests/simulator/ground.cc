@@ -118,7 +118,7 @@ cv::Vec3f Ground::colour_at(const cv::Vec2d& position,
     }
   }
   if (roads.empty()) return yard_colour(position, Frontage::open, grain);
-  if (beyond_m < 0) return road_colour(nearest, others_m, position, grain);
+  if (beyond_m < 0) return road_colour(nearest, others_m, beyond_m, position, grain);
   const Frontage frontage = network_.roads[nearest.road].frontage_at(nearest.place.along_m);
   if (frontage == Frontage::open) {
     const double ragged = 0.7 + 0.5 * smooth_noise(east * 1.5, north * 1.5, seed_ + 6);
@@ -129,8 +129,8 @@ cv::Vec3f Ground::colour_at(const cv::Vec2d& position,
   return yard_colour(position, frontage, grain);
 }
 
-cv::Vec3f Ground::road_colour(const Near& near, double others_m, const cv::Vec2d& position,
-                              float grain) const {
+cv::Vec3f Ground::road_colour(const Near& near, double others_m, double beyond_m,
+                              const cv::Vec2d& position, float grain) const {
   const RoadPlace& place = near.place;
   const Fittings& fittings = fittings_[near.road];
   for (const RoadPlace& manhole : fittings.manholes) {
@@ -146,7 +146,7 @@ cv::Vec3f Ground::road_colour(const Near& near, double others_m, const cv::Vec2d
     if (worn < 0.82F) return kMarking - cv::Vec3f::all(45 * worn) + cv::Vec3f::all(grain * 0.6F);
   }
   float shade = 88 + grain;
-  const double edge = -near.beyond_edge_m;
+  const double edge = std::max(-beyond_m, 0.0);
   if (edge < 0.35) shade -= static_cast<float>(22 * (1 - edge / 0.35));  // the gutter
   for (const Repair& repair : fittings.repairs) {
     const double along = place.along_m - repair.place.along_m;
@@ -233,9 +233,16 @@ cv::Vec3f Ground::yard_colour(const cv::Vec2d& position, Frontage frontage, floa
     const float shade = 128 + grain * 1.2F + 20 * tuft;
     return {shade * 0.93F, shade * 0.98F, shade};
   }
-  const float light = 0.86F + 0.3F * lush + 0.28F * blades + 0.25F * tuft;
-  const cv::Vec3f grass = cv::Vec3f(48, 104, 88) * (1 - lush) + cv::Vec3f(42, 112, 74) * lush;
-  return grass * light + cv::Vec3f::all(grain * 0.25F);
+  // Grass, here fresh, there dry; mown strips and trodden earth.
+  const float dry = smooth_noise(east / 23, north / 31, seed_ + 16);
+  const float light = 0.84F + 0.2F * lush + 0.34F * blades + 0.32F * tuft;
+  const cv::Vec3f fresh(44, 92, 74);
+  const cv::Vec3f straw(72, 118, 122);
+  const cv::Vec3f earth(78, 98, 112);
+  cv::Vec3f colour = fresh + (straw - fresh) * (0.25F + 0.75F * dry * dry);
+  const float bare = smooth_noise(east / 2.3, north / 2.3, seed_ + 17);
+  if (bare > 0.8F) colour += (earth - colour) * std::min((bare - 0.8F) * 6, 0.8F);
+  return colour * light + cv::Vec3f::all(grain * 0.3F);
 }
 
 }  // namespace milepost::simulator

@@ -42,8 +42,9 @@ class Ground {
   };
 
   cv::Vec3f colour_at(const cv::Vec2d& position, const std::vector<std::size_t>& roads) const;
-  cv::Vec3f road_colour(const Near& near, double others_m, const cv::Vec2d& position,
-                        float grain) const;
+  // `others_m` and `beyond_m`: to the edges of the other roads, and of all with rounded corners.
+  cv::Vec3f road_colour(const Near& near, double others_m, double beyond_m,
+                        const cv::Vec2d& position, float grain) const;
   cv::Vec3f pavement_colour(const Near& near, double beyond_m, float grain) const;
   cv::Vec3f yard_colour(const cv::Vec2d& position, Frontage frontage, float grain) const;
   bool is_marking(const Near& near, double others_m) const;

@@ -12,7 +12,7 @@ struct Light {
   double sun_elevation_deg = 42;
   cv::Vec3f sun{1.02F, 1.16F, 1.28F};     // blue, green, red on a surface that faces the sun
   cv::Vec3f sky{0.42F, 0.36F, 0.31F};     // under an open sky
-  cv::Vec3f bounce{0.10F, 0.11F, 0.12F};  // from sunlit ground and walls, everywhere
+  cv::Vec3f bounce{0.13F, 0.14F, 0.15F};  // from sunlit ground and walls, everywhere
   float cloud_cover = 0.45F;              // share of the sky that is clouded, [0, 1]
   std::uint64_t clouds_seed = 1;
   float haze_per_m = 0.0007F;

@@ -13,19 +13,19 @@ namespace {
 
 constexpr int kClumpsPerKind = 4;
 
-const cv::Scalar kLeafColours[Foliage::kKinds] = {{38, 96, 72}, {36, 84, 52}, {52, 112, 96}};
+const cv::Scalar kLeafColours[Foliage::kKinds] = {{40, 88, 70}, {38, 76, 54}, {50, 98, 86}};
 
 cv::Mat paint_clump(const cv::Scalar& colour, cv::RNG& random) {
   const int side = Foliage::kTexels;
   cv::Mat image(side, side, CV_8UC4, cv::Scalar(colour[0], colour[1], colour[2], 0));
-  for (int leaf = 0; leaf < 230; ++leaf) {
+  for (int leaf = 0; leaf < 620; ++leaf) {
     const double angle = random.uniform(0.0, 2 * CV_PI);
     const double radius = side * 0.44 * std::sqrt(random.uniform(0.0, 1.0));
     const cv::Point at(static_cast<int>(side / 2 + radius * std::cos(angle)),
                        static_cast<int>(side / 2 + radius * std::sin(angle)));
-    cv::Scalar green = varied(colour * random.uniform(0.55, 1.35), 12, random);
+    cv::Scalar green = varied(colour * random.uniform(0.5, 1.3), 10, random);
     green[3] = 255;
-    cv::ellipse(image, at, {random.uniform(4, 9), random.uniform(2, 5)}, random.uniform(0.0, 360.0),
+    cv::ellipse(image, at, {random.uniform(3, 6), random.uniform(1, 4)}, random.uniform(0.0, 360.0),
                 0, 360, green, -1);
   }
   return image;

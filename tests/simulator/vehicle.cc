@@ -203,31 +203,37 @@ std::string any_plate(cv::RNG& random) {
   return plate;
 }
 
-// The front or back below the windows, `height_m` high; its bottom is `floor_m` above the ground.
+// The front or back, up to `height_m` above its sill.
 cv::Mat paint_end(double width_m, double height_m, const cv::Scalar& body, bool is_front,
                   cv::RNG& random) {
   cv::Mat image(texels(height_m), texels(width_m), CV_8UC3, body);
-  const int width = image.cols;
-  const int low = image.rows;
-  const auto box = [&](double left, double top, double right, double bottom,
+  // Measured from the left and up from the sill.
+  const auto box = [&](double left, double up, double width, double height,
                        const cv::Scalar& colour) {
-    cv::rectangle(image, {static_cast<int>(left * width), static_cast<int>(top * low)},
-                  {static_cast<int>(right * width), static_cast<int>(bottom * low)}, colour, -1);
+    cv::rectangle(image, {texels(left), texels(height_m - up - height)},
+                  {texels(left + width) - 1, texels(height_m - up) - 1}, colour, -1);
   };
-  box(0, 0.78, 1, 1, body * 0.5);
+  const double middle = width_m / 2;
+  box(0, 0, width_m, 0.13, body * 0.45);
   if (is_front) {
-    box(0.28, 0.25, 0.72, 0.55, {35, 34, 33});
-    for (int i = 0; i < 4; ++i) box(0.3, 0.29 + i * 0.065, 0.7, 0.31 + i * 0.065, {120, 120, 120});
+    box(middle - 0.4, 0.24, 0.8, 0.15, {35, 34, 33});
+    for (int i = 0; i < 4; ++i) box(middle - 0.38, 0.25 + 0.035 * i, 0.76, 0.012, {120, 120, 120});
+  } else if (height_m > 1.2) {  // a van's doors and their windows
+    box(middle - 0.01, 0.13, 0.02, height_m - 0.2, body * 0.5);
+    for (const double left : {middle - 0.75, middle + 0.15}) {
+      box(left, height_m * 0.55, 0.6, height_m * 0.32, {60, 53, 48});
+      box(left + 0.04, height_m * 0.7, 0.35, height_m * 0.14, {92, 82, 74});
+    }
   }
-  const cv::Scalar lamp = is_front ? cv::Scalar(225, 232, 238) : cv::Scalar(36, 28, 175);
-  box(0.03, 0.12, 0.2, 0.42, lamp);
-  box(0.8, 0.12, 0.97, 0.42, lamp);
-  box(0.05, 0.3, 0.18, 0.36, lamp * 0.75);
-  box(0.82, 0.3, 0.95, 0.36, lamp * 0.75);
-  box(0.34, 0.6, 0.66, 0.76, {228, 232, 232});
-  cv::putText(image, any_plate(random),
-              {static_cast<int>(width * 0.355), static_cast<int>(low * 0.735)},
-              cv::FONT_HERSHEY_DUPLEX, width * 0.3 / 150, {30, 30, 30}, 1, cv::LINE_AA);
+  const cv::Scalar lamp = is_front ? cv::Scalar(225, 232, 238) : cv::Scalar(36, 28, 165);
+  const double lamp_height = is_front ? 0.17 : 0.26;
+  for (const double left : {0.05, width_m - 0.05 - 0.3}) {
+    box(left, 0.28, 0.3, lamp_height, lamp);
+    box(left + 0.03, 0.31, 0.24, 0.05, is_front ? lamp * 0.75 : cv::Scalar(60, 130, 220));
+  }
+  box(middle - 0.26, 0.13, 0.52, 0.115, {228, 232, 232});
+  cv::putText(image, any_plate(random), {texels(middle - 0.235), texels(height_m - 0.155)},
+              cv::FONT_HERSHEY_DUPLEX, 0.29, {30, 30, 30}, 1, cv::LINE_AA);
   weather(image, 2, 3, random);
   return image;
 }
