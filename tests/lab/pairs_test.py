@@ -38,8 +38,8 @@ class Pairs(unittest.TestCase):
         self.assertEqual(pair.tags, {"curved", "study"})
 
     def test_simulated_drives_need_not_be_there_yet(self):
-        (pair,) = self.read("simulate --seed 7 --query\ns street-map street-query\n")
-        self.assertEqual(pair.place.simulate, ("--seed", "7", "--query"))
+        (pair,) = self.read("simulate --seed 7 --route street\ns street-map street-query\n")
+        self.assertEqual(pair.place.simulate, ("--seed", "7", "--route", "street"))
 
     def test_studies_run_on_the_pairs_tagged_so_or_on_all(self):
         self.assertEqual([p.name for p in study_pairs(self.read("a a-map a-query\nb a-map a-query study\n"))], ["b"])

@@ -80,7 +80,7 @@ class Planner:
     def simulate(self, place):
         return self.once(("simulate", place), lambda: Stage(
             "simulate", "drives", program("milepost-simulator"), place.simulate,
-            lambda out, threads: ["--out", out, *place.simulate]))
+            lambda out, threads: ["--out", out, "--threads", threads, *place.simulate]))
 
     def map(self, pair, settings):
         def plan():
