@@ -89,6 +89,7 @@ class FrameContent {
 
 struct Runner {
   Localizer localizer;
+  std::unique_ptr<std::vector<TrackletEstimate>> estimates;  // of the frame it is at
   bool had_fix = false;
 };
 
@@ -96,6 +97,7 @@ struct Runner {
 Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, Runner& runner,
                            Replay& replay) {
   content.begin_turn();
+  runner.estimates->clear();
   const QueryFrame query{frame.timestamp_s,
                          [&](const FeatureParameters& parameters) -> const FeatureSet& {
                            return content.features(parameters);
@@ -114,13 +116,13 @@ Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, Runner& ru
   }
   runner.had_fix = runner.had_fix || fix->along_m.has_value();
   if (runner.localizer.noted_error()) replay.outage = runner.localizer.noted_error();
-  return FrameFix{frame.filename, std::move(*fix), latency_ms};
+  return FrameFix{frame.filename, std::move(*fix), latency_ms, *runner.estimates};
 }
 
 }  // namespace
 
 Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>& source,
-                            const std::vector<Method>& methods,
+                            const std::vector<Method>& methods, bool with_estimates,
                             const std::function<bool(std::size_t)>& on_frame) {
   if (drive.gps.empty()) {
     return Error{ErrorCode::invalid_input, (drive.folder / "gps.csv").string(),
@@ -132,7 +134,13 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
   for (const Method& method : methods) {
     LocalizerSettings settings;
     settings.method = method;
-    runners.push_back({Localizer(source, camera, settings)});
+    auto estimates = std::make_unique<std::vector<TrackletEstimate>>();
+    if (with_estimates) {
+      settings.on_estimate = [all = estimates.get()](const TrackletEstimate& estimate) {
+        all->push_back(estimate);
+      };
+    }
+    runners.push_back({Localizer(source, camera, settings), std::move(estimates)});
   }
 
   Replay replay;

@@ -59,6 +59,14 @@ struct QueryCamera {
   double focal_y_px = 0;
 };
 
+// What one tracklet said of a frame that was followed, for those who study estimates.
+struct TrackletEstimate {
+  PositionEstimate estimate;
+  double scale_px = 0;   // of the matched feature, as the map's camera would see it
+  AlongRange along;      // of the tracklet
+  double r_squared = 0;  // of its regression
+};
+
 struct LocalizerSettings {
   Method method;
   double start_radius_m = 30;    // segments farther from the coarse position are not looked at
@@ -69,6 +77,8 @@ struct LocalizerSettings {
   int max_predicted_frames = 8;  // frames without measurement before the vehicle counts as lost
   double prefetch_m = 300;       // fetched ahead in the background; 0 turns it off
   WindowSettings window;
+  // Called by localize() for each estimate of a frame that is followed by tracklets; may be empty.
+  std::function<void(const TrackletEstimate&)> on_estimate = {};
 };
 
 // Not safe to use from several threads at once. Fixes depend on frames, positions and map only:

@@ -120,7 +120,7 @@ std::vector<TrackletMatch> match_tracklets(const FeatureSet& query, double scale
     const double scale_px = scale_ratio * query.features[best.feature].scale_px;
     const PositionEstimate estimate = estimate_from(window, tracklet, scale_px, settings);
     if (believable.contains(estimate.along_m))
-      matches.push_back({best.feature, tracklet, estimate});
+      matches.push_back({best.feature, tracklet, scale_px, estimate});
   }
   std::sort(matches.begin(), matches.end(), [](const TrackletMatch& a, const TrackletMatch& b) {
     return a.feature < b.feature;  // an order that no hash decides

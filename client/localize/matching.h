@@ -33,6 +33,7 @@ struct MatchSettings {
 struct TrackletMatch {
   std::size_t feature = 0;   // of the query
   std::size_t tracklet = 0;  // of the window
+  double scale_px = 0;       // of the feature, as the map's camera would see it
   PositionEstimate estimate;
 };
 

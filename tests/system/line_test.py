@@ -86,6 +86,37 @@ class Line(CommandTest):
             self.assertIn(f"<th scope=\"row\">{method}", report)
         self.assertNotRegex(report, r"(src|href)=\"http")  # self-contained
 
+    def test_estimates(self):
+        self.build_map("--lab")
+        out = self.folder / "results"
+        methods = ["wisurf", "tracklet-matching", "tracklet-regression"]
+        self.expect_done(run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", out, "--estimates",
+                             "--method", *methods))
+        self.assertFalse((out / "estimates-wisurf.csv").exists())  # has no tracklets
+        for method in methods[1:]:
+            fixes = {row["filename"]: row for row in rows_of(out / f"fixes-{method}.csv")}
+            estimates = {}
+            for row in rows_of(out / f"estimates-{method}.csv"):
+                self.assertEqual(list(row), ["timestamp_s", "filename", "along_m", "sigma_m", "truth_along_m", "error_m",
+                                             "scale_px", "along_begin_m", "along_end_m", "r_squared"])
+                self.assertAlmostEqual(float(row["along_m"]) - float(row["truth_along_m"]), float(row["error_m"]),
+                                       delta=2e-4)
+                self.assertGreaterEqual(float(row["r_squared"]), 0.8)
+                estimates.setdefault(row["filename"], []).append(float(row["along_m"]))
+            for filename, along_m in estimates.items():  # Eq. 4
+                fix = fixes[filename]
+                self.assertEqual(int(fix["matches"]), len(along_m))
+                self.assertAlmostEqual(sum(along_m) / len(along_m), float(fix["along_m"]), delta=1e-3)
+            self.assertGreaterEqual(len(estimates), 0.9 * len(fixes))
+        regressions = {}
+        for row in rows_of(out / "regressions.csv"):
+            regressions.setdefault(row["tracklet"], []).append(row)
+        self.assertGreater(len(regressions), 3)
+        for rows in regressions.values():
+            self.assertGreaterEqual(len(rows), 3)
+            residuals = [float(r["offset_m"]) + float(r["slope"]) * float(r["scale_px"]) - float(r["along_m"]) for r in rows]
+            self.assertAlmostEqual(sum(residuals) / len(rows), 0, delta=1e-2)  # least squares
+
     def check_against_rows(self, entry, rows):
         self.assertEqual(list(rows[0]), FIX_COLUMNS + ["truth_along_m", "error_m"])
         errors = []
