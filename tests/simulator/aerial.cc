@@ -19,7 +19,8 @@ namespace milepost::simulator {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kFlightM = 500;  // of the plane in which the picture lies; above everything
+constexpr double kFlightM = 500;    // of the plane in which the picture lies; above everything
+constexpr double kExposure = 1.25;  // streets lie in the shade of their houses
 constexpr int kStripRows = 256;
 constexpr int kBlockColumns = 512;
 
@@ -70,6 +71,7 @@ cv::Mat render_block(const Town& town, const Lighting& lighting, const OrthoPlan
 bool write_strip(GDALDataset& dataset, const cv::Mat& strip, int top) {
   cv::Mat rgb;
   cv::cvtColor(strip, rgb, cv::COLOR_BGR2RGB);
+  rgb.convertTo(rgb, -1, kExposure);
   return dataset.RasterIO(GF_Write, 0, top, rgb.cols, rgb.rows, rgb.data, rgb.cols, rgb.rows,
                           GDT_Byte, 3, nullptr, 3, static_cast<GSpacing>(rgb.step[0]), 1,
                           nullptr) == CE_None;

@@ -117,7 +117,7 @@ cv::Vec3f Ground::colour_at(const cv::Vec2d& position,
       others_m = std::min(others_m, edge_m);
     }
   }
-  if (roads.empty()) return yard_colour(position, Frontage::open, grain);
+  if (roads.empty()) return yard_colour(position, Frontage::open, kReachM, grain);
   if (beyond_m < 0) return road_colour(nearest, others_m, beyond_m, position, grain);
   const Frontage frontage = network_.roads[nearest.road].frontage_at(nearest.place.along_m);
   if (frontage == Frontage::open) {
@@ -126,7 +126,7 @@ cv::Vec3f Ground::colour_at(const cv::Vec2d& position,
   } else if (beyond_m < kKerbM + pavement_width_m(frontage)) {
     return pavement_colour(nearest, beyond_m, grain);
   }
-  return yard_colour(position, frontage, grain);
+  return yard_colour(position, frontage, beyond_m, grain);
 }
 
 cv::Vec3f Ground::road_colour(const Near& near, double others_m, double beyond_m,
@@ -217,7 +217,8 @@ cv::Vec3f Ground::pavement_colour(const Near& near, double beyond_m, float grain
   return {shade * 0.95F, shade * 0.985F, shade};
 }
 
-cv::Vec3f Ground::yard_colour(const cv::Vec2d& position, Frontage frontage, float grain) const {
+cv::Vec3f Ground::yard_colour(const cv::Vec2d& position, Frontage frontage, double beyond_m,
+                              float grain) const {
   const double east = position[0];
   const double north = position[1];
   const float lush = smooth_noise(east / 9, north / 9, seed_ + 10);
@@ -229,7 +230,8 @@ cv::Vec3f Ground::yard_colour(const cv::Vec2d& position, Frontage frontage, floa
                                                                                    : 0.0F;
   const float kind = smooth_noise(east / 12, north / 12, seed_ + 14) +
                      0.1F * smooth_noise(east, north, seed_ + 15);
-  if (kind < paved) {  // gravel and worn concrete
+  const auto reached = static_cast<float>(std::clamp((kReachM - beyond_m) / 8, 0.0, 1.0));
+  if (kind < paved * reached) {  // gravel and worn concrete
     const float shade = 128 + grain * 1.2F + 20 * tuft;
     return {shade * 0.93F, shade * 0.98F, shade};
   }

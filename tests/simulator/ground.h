@@ -46,7 +46,8 @@ class Ground {
   cv::Vec3f road_colour(const Near& near, double others_m, double beyond_m,
                         const cv::Vec2d& position, float grain) const;
   cv::Vec3f pavement_colour(const Near& near, double beyond_m, float grain) const;
-  cv::Vec3f yard_colour(const cv::Vec2d& position, Frontage frontage, float grain) const;
+  cv::Vec3f yard_colour(const cv::Vec2d& position, Frontage frontage, double beyond_m,
+                        float grain) const;
   bool is_marking(const Near& near, double others_m) const;
 
   const Network network_;
