@@ -3,6 +3,7 @@
 #include <map>
 
 #include "client/cli/commands.h"
+#include "client/cli/estimates.h"
 #include "client/cli/output.h"
 #include "client/cli/replay.h"
 #include "client/cli/report.h"
@@ -17,6 +18,7 @@ struct EvaluateOptions {
   std::string drive;
   std::string out;
   std::vector<std::string> methods = {kDefaultMethod};
+  bool estimates = false;
 };
 
 Result<std::vector<Method>> methods_named(const std::vector<std::string>& names) {
@@ -65,6 +67,22 @@ Result<std::string> report_of(const Drive& drive, const std::string& source_name
   return report_html(input);
 }
 
+// What --estimates adds to the files of an evaluation.
+Status write_estimates(const std::filesystem::path& out,
+                       const std::vector<MethodEvaluation>& methods, MapSource& source) {
+  for (const MethodEvaluation& evaluation : methods) {
+    if (!has_estimates(evaluation.fixes)) continue;
+    const Status written = write_text_file(
+        out / ("estimates-" + evaluation.summary.method + ".csv"), estimates_csv(evaluation.fixes));
+    if (!written.ok()) return written;
+  }
+  const Fix* fix = typical_fix(methods);
+  if (!fix) return ok_status();
+  const auto regressions = regressions_csv(source, *fix);
+  if (!regressions) return regressions.error();
+  return *regressions ? write_text_file(out / "regressions.csv", **regressions) : ok_status();
+}
+
 // All files of an evaluation, each whole or not there.
 Status write_evaluation(const std::filesystem::path& out,
                         const std::vector<MethodEvaluation>& methods, const std::string& report) {
@@ -84,9 +102,9 @@ Status write_evaluation(const std::filesystem::path& out,
 }
 
 Result<Replay> replay_with_progress(const Drive& drive, const std::shared_ptr<MapSource>& source,
-                                    const std::vector<Method>& methods) {
+                                    const std::vector<Method>& methods, bool with_estimates) {
   ProgressLine progress;
-  return replay_drive(drive, source, methods, [&](std::size_t done) {
+  return replay_drive(drive, source, methods, with_estimates, [&](std::size_t done) {
     progress.show("frame " + std::to_string(done) + " of " + std::to_string(drive.frames.size()));
     return !stop_requested();
   });
@@ -100,7 +118,7 @@ int evaluate(const std::string& program, const EvaluateOptions& options) {
   const Result<std::shared_ptr<MapSource>> source = open_source(options.map);
   if (!source) return fail(program, source.error());
   catch_stop_signals();
-  const Result<Replay> replay = replay_with_progress(*drive, *source, *methods);
+  const Result<Replay> replay = replay_with_progress(*drive, *source, *methods, options.estimates);
   if (!replay) return fail(program, replay.error());
 
   std::vector<MethodEvaluation> evaluations;
@@ -115,6 +133,10 @@ int evaluate(const std::string& program, const EvaluateOptions& options) {
   if (!report) return fail(program, report.error());
   const Status written = write_evaluation(options.out, evaluations, *report);
   if (!written.ok()) return fail(program, written.error());
+  if (options.estimates) {
+    const Status more = write_estimates(options.out, evaluations, **source);
+    if (!more.ok()) return fail(program, more.error());
+  }
   std::cout << summary_text(evaluations);
   return replay->outage ? fail(program, *replay->outage) : kExitDone;
 }
@@ -143,6 +165,11 @@ int run_evaluate(const std::string& program, std::vector<std::string> words) {
   app.add_option("--method", options.methods, "Methods to compare: " + known)
       ->capture_default_str()
       ->option_text("M ... [milepost]");
+  app.add_flag(
+      "--estimates", options.estimates,
+      "Also write estimates-METHOD.csv, what each matched tracklet said in each frame, and\n"
+      "regressions.csv, the observations of some tracklets, where the map was built with "
+      "--lab");
   if (const auto code = parse_words(app, std::move(words))) return *code;
   if (options.map.server.empty() && options.map.map.empty()) {
     std::cerr << program << ": either --server or --map is required; see '" << program

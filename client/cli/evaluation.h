@@ -15,7 +15,8 @@ namespace milepost {
 struct FrameFix {
   std::string filename;
   Fix fix;
-  double latency_ms = 0;  // from the decoded image to the fix
+  double latency_ms = 0;                         // from the decoded image to the fix
+  std::vector<TrackletEstimate> estimates = {};  // that made it, where they were asked for
 };
 
 struct EvaluatedFix {

@@ -53,7 +53,7 @@ int run_localize(const std::string& program, std::vector<std::string> words) {
   catch_stop_signals();
   const Result<Replay> replay = [&] {
     ProgressLine progress;
-    return replay_drive(*drive, *source, {*method}, [&](std::size_t done) {
+    return replay_drive(*drive, *source, {*method}, false, [&](std::size_t done) {
       progress.show("frame " + std::to_string(done) + " of " +
                     std::to_string(drive->frames.size()));
       return !stop_requested();

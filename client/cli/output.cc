@@ -5,22 +5,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "client/cli/cells.h"
+
 namespace milepost {
 namespace {
 
 constexpr const char* kFixColumns =
     "timestamp_s,filename,status,segment,along_m,sigma_m,latitude_deg,longitude_deg,matches,"
     "latency_ms";
-
-std::string number(double value, int digits) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
-
-std::string number(const std::optional<double>& value, int digits) {
-  return value ? number(*value, digits) : std::string();
-}
 
 std::string fix_cells(const FrameFix& frame) {
   const Fix& fix = frame.fix;
@@ -77,7 +69,7 @@ std::string summary_json(const std::vector<MethodEvaluation>& methods) {
 
 std::string summary_text(const std::vector<MethodEvaluation>& methods) {
   std::array<char, 256> line{};
-  std::snprintf(line.data(), line.size(), "%-28s %7s %7s %7s %7s %11s %8s %7s %7s\n", "method",
+  std::snprintf(line.data(), line.size(), "%-30s %7s %7s %7s %7s %11s %8s %7s %7s\n", "method",
                 "mean m", "std m", "p95 m", "max m", "localized", "in 2 sd", "kB/m", "ms p50");
   std::string text = line.data();
   for (const MethodEvaluation& evaluation : methods) {
@@ -85,7 +77,7 @@ std::string summary_text(const std::vector<MethodEvaluation>& methods) {
     const std::string localized =
         std::to_string(s.localized_frames) + "/" + std::to_string(s.frames);
     std::snprintf(line.data(), line.size(),
-                  "%-28s %7.3f %7.3f %7.3f %7.3f %11s %7.0f%% %7.2f %7.1f\n", s.method.c_str(),
+                  "%-30s %7.3f %7.3f %7.3f %7.3f %11s %7.0f%% %7.2f %7.1f\n", s.method.c_str(),
                   s.mean_error_m, s.std_error_m, s.p95_error_m, s.max_error_m, localized.c_str(),
                   100 * s.within_2_sigma, s.map_kb_per_m, s.latency_ms_p50);
     text += line.data();

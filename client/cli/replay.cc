@@ -1,9 +1,11 @@
 #include "client/cli/replay.h"
 
 #include <chrono>
+#include <optional>
 
 #include "schema/drive/frame_image.h"
 #include "schema/feature/extractor.h"
+#include "schema/feature/wisurf.h"
 
 namespace milepost {
 namespace {
@@ -17,61 +19,93 @@ double ms_since(SteadyClock::time_point start) {
   return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
 
-// The features of one frame at a time, extracted when first asked for, and the time that took.
-class FrameFeatures {
+// A value made from a frame when a localizer first asks for it, and the time that took.
+template <class Value>
+class MadeOnce {
+ public:
+  void forget() { made_ms_.reset(); }
+  // Begins another localizer's turn.
+  void begin_turn() { charged_ = false; }
+
+  // Adds to `spared_ms`, once a turn, what a localizer on its own would have spent.
+  template <class Make>
+  const Value& get(const Make& make, double& spared_ms) {
+    if (!made_ms_) {
+      const auto start = SteadyClock::now();
+      value_ = make();
+      made_ms_ = ms_since(start);
+    } else if (!charged_) {
+      spared_ms += *made_ms_;
+    }
+    charged_ = true;
+    return value_;
+  }
+
+ private:
+  Value value_{};
+  std::optional<double> made_ms_;
+  bool charged_ = false;
+};
+
+// What localizers ask of one frame at a time.
+class FrameContent {
  public:
   void set_frame(cv::Mat gray) {
     gray_ = std::move(gray);
-    extracted_ = false;
-    extraction_ms_ = 0;
+    features_.forget();
+    image_.forget();
   }
 
-  const FeatureSet& get(const FeatureParameters& parameters) {
+  void begin_turn() {
+    features_.begin_turn();
+    image_.begin_turn();
+    spared_ms_ = 0;
+  }
+
+  const FeatureSet& features(const FeatureParameters& parameters) {
     if (!extractor_ || !(parameters == parameters_)) {
       extractor_ = std::make_unique<FeatureExtractor>(parameters);
       parameters_ = parameters;
-      extracted_ = false;
+      features_.forget();
     }
-    if (!extracted_) {
-      const auto start = SteadyClock::now();
-      features_ = extractor_->extract(gray_);
-      extraction_ms_ = ms_since(start);
-      extracted_ = true;
-    }
-    return features_;
+    return features_.get([this] { return extractor_->extract(gray_); }, spared_ms_);
   }
 
-  bool extracted() const { return extracted_; }
-  double extraction_ms() const { return extraction_ms_; }
+  const ImageDescriptor& image() {
+    return image_.get([this] { return wisurf(gray_); }, spared_ms_);
+  }
+
+  // What this turn did not take because an earlier one had made it.
+  double spared_ms() const { return spared_ms_; }
 
  private:
   cv::Mat gray_;
   std::unique_ptr<FeatureExtractor> extractor_;
   FeatureParameters parameters_;
-  FeatureSet features_;
-  bool extracted_ = false;
-  double extraction_ms_ = 0;
+  MadeOnce<FeatureSet> features_;
+  MadeOnce<ImageDescriptor> image_;
+  double spared_ms_ = 0;
 };
 
 struct Runner {
   Localizer localizer;
+  std::unique_ptr<std::vector<TrackletEstimate>> estimates;  // of the frame it is at
   bool had_fix = false;
 };
 
 // One frame through one localizer. A source that fails after the first fix costs this frame only.
-Result<FrameFix> run_frame(const Frame& frame, FrameFeatures& features, Runner& runner,
+Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, Runner& runner,
                            Replay& replay) {
-  bool asked = false;
-  const bool extracted_before = features.extracted();
+  content.begin_turn();
+  runner.estimates->clear();
   const QueryFrame query{frame.timestamp_s,
                          [&](const FeatureParameters& parameters) -> const FeatureSet& {
-                           asked = true;
-                           return features.get(parameters);
-                         }};
+                           return content.features(parameters);
+                         },
+                         [&]() -> const ImageDescriptor& { return content.image(); }};
   const auto start = SteadyClock::now();
   Result<Fix> fix = runner.localizer.localize(query);
-  double latency_ms = ms_since(start);
-  if (asked && extracted_before) latency_ms += features.extraction_ms();
+  const double latency_ms = ms_since(start) + content.spared_ms();
   if (!fix) {
     if (!runner.had_fix) return fix.error();
     replay.outage = fix.error();
@@ -82,13 +116,13 @@ Result<FrameFix> run_frame(const Frame& frame, FrameFeatures& features, Runner& 
   }
   runner.had_fix = runner.had_fix || fix->along_m.has_value();
   if (runner.localizer.noted_error()) replay.outage = runner.localizer.noted_error();
-  return FrameFix{frame.filename, std::move(*fix), latency_ms};
+  return FrameFix{frame.filename, std::move(*fix), latency_ms, *runner.estimates};
 }
 
 }  // namespace
 
 Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>& source,
-                            const std::vector<Method>& methods,
+                            const std::vector<Method>& methods, bool with_estimates,
                             const std::function<bool(std::size_t)>& on_frame) {
   if (drive.gps.empty()) {
     return Error{ErrorCode::invalid_input, (drive.folder / "gps.csv").string(),
@@ -100,18 +134,24 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
   for (const Method& method : methods) {
     LocalizerSettings settings;
     settings.method = method;
-    runners.push_back({Localizer(source, camera, settings)});
+    auto estimates = std::make_unique<std::vector<TrackletEstimate>>();
+    if (with_estimates) {
+      settings.on_estimate = [all = estimates.get()](const TrackletEstimate& estimate) {
+        all->push_back(estimate);
+      };
+    }
+    runners.push_back({Localizer(source, camera, settings), std::move(estimates)});
   }
 
   Replay replay;
   replay.fixes.resize(methods.size());
-  FrameFeatures features;
+  FrameContent content;
   std::size_t next_gps = 0;
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     const Frame& frame = drive.frames[i];
     Result<cv::Mat> gray = read_frame_gray(drive, i);
     if (!gray) return gray.error();
-    features.set_frame(std::move(*gray));
+    content.set_frame(std::move(*gray));
     for (; next_gps < drive.gps.size() &&
            drive.gps[next_gps].timestamp_s <= frame.timestamp_s + kClockRoundingS;
          ++next_gps) {
@@ -120,7 +160,7 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
         runner.localizer.observe({gps.timestamp_s, gps.position, gps.sigma_m});
     }
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      Result<FrameFix> fix = run_frame(frame, features, runners[m], replay);
+      Result<FrameFix> fix = run_frame(frame, content, runners[m], replay);
       if (!fix) return fix.error();
       replay.fixes[m].push_back(std::move(*fix));
     }

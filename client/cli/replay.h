@@ -21,11 +21,12 @@ struct Replay {
 // Localizes every frame by every method; a method sees nothing of another, but features are
 // extracted once a frame and their time is counted to each. Receiver positions (gps.csv) are handed
 // on when their time has come; recorded positions of frames are never looked at.
-// `on_frame` is called with the number of frames done; false stops the replay (cancelled).
-// Errors: those of read_frame_gray; those of Localizer::localize before a method's first fix;
-// invalid_input for a drive without gps.csv.
+// `with_estimates` keeps what each tracklet said in each frame. `on_frame` is called with the
+// number of frames done; false stops the replay (cancelled). Errors: those of read_frame_gray;
+// those of Localizer::localize before a method's first fix; invalid_input for a drive without
+// gps.csv.
 Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>& source,
-                            const std::vector<Method>& methods,
+                            const std::vector<Method>& methods, bool with_estimates,
                             const std::function<bool(std::size_t)>& on_frame);
 
 }  // namespace milepost

@@ -1,9 +1,11 @@
 #include "client/cli/report_series.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "client/cli/plot/text.h"
@@ -12,7 +14,16 @@ namespace milepost {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kColours = 7;
+// The method that each colour of the style belongs to, here and in the laboratory's report
+// (tests/lab/laboratory/drawing.py).
+constexpr std::array<std::string_view, 8> kMethodOfColour = {kDefaultMethod,
+                                                             "tracklet-regression-kalman",
+                                                             "tracklet-regression",
+                                                             "tracklet-regression-particle",
+                                                             "tracklet-matching",
+                                                             "scale-only",
+                                                             "wisurf",
+                                                             "tracklet-regression-unaveraged"};
 constexpr double kHeadroom = 1.05;        // so that the greatest value is not half outside the plot
 constexpr double kWidestToNarrowest = 8;  // of the methods' error scales in one plot
 
@@ -80,12 +91,24 @@ std::size_t chief_of(const std::vector<MethodEvaluation>& methods) {
   return 0;
 }
 
-// The chief has the first colour in every report, the others the next ones in order.
+// A known method has its own colour, whatever stands beside it; others take those that are left
+// over.
 void give_colours(ReportSeries& series) {
-  std::size_t next = 1;
-  for (std::size_t i = 0; i < series.methods.size(); ++i) {
-    const std::size_t colour = i == series.chief ? 0 : next++;
-    series.methods[i].css_class = "m" + std::to_string(colour % kColours);
+  std::vector<std::size_t> left_over;
+  for (std::size_t colour = 0; colour < kMethodOfColour.size(); ++colour) {
+    const bool taken = std::any_of(
+        series.methods.begin(), series.methods.end(),
+        [&](const MethodSeries& method) { return method.name == kMethodOfColour.at(colour); });
+    if (!taken) left_over.push_back(colour);
+  }
+  std::size_t others = 0;
+  for (MethodSeries& method : series.methods) {
+    const auto* known = std::find(kMethodOfColour.begin(), kMethodOfColour.end(), method.name);
+    const std::size_t colour = known != kMethodOfColour.end()
+                                   ? static_cast<std::size_t>(known - kMethodOfColour.begin())
+                               : left_over.empty() ? others++ % kMethodOfColour.size()
+                                                   : left_over[others++ % left_over.size()];
+    method.css_class = "m" + std::to_string(colour);
   }
 }
 

@@ -10,7 +10,7 @@ namespace milepost {
 
 struct MethodSeries {
   std::string name;
-  std::string css_class;  // "m0" to "m6": its colour
+  std::string css_class;  // "m0" to "m7": its colour
   const MethodEvaluation* evaluation = nullptr;
   // One a fix; NaN where unknown.
   std::vector<double> route_m;             // where on the route

@@ -1,5 +1,6 @@
 #include "client/cli/report_table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -64,8 +65,8 @@ const std::array<Column, 10>& columns() {
   return all;
 }
 
-// What the best cell of the column says. Methods that say the same share the mark: a difference
-// that is not printed is none.
+// What the best cell of the column says. Methods that say the same share the mark, since a
+// difference that is not printed is none; where all say the same there is none.
 std::optional<std::string> best_text(const Column& column,
                                      const std::vector<MethodEvaluation>& methods) {
   const Summary* best = nullptr;
@@ -75,8 +76,12 @@ std::optional<std::string> best_text(const Column& column,
       best = &method.summary;
     }
   }
-  if (best == nullptr || methods.size() < 2) return std::nullopt;
-  return column.text(*best);
+  if (best == nullptr) return std::nullopt;
+  const std::string text = column.text(*best);
+  const bool all_the_same = std::all_of(
+      methods.begin(), methods.end(),
+      [&](const MethodEvaluation& method) { return column.text(method.summary) == text; });
+  return all_the_same ? std::nullopt : std::optional(text);
 }
 
 std::string head() {

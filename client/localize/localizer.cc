@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/localize/follower.h"
 #include "client/localize/segment_session.h"
 
 namespace milepost {
@@ -10,13 +11,10 @@ namespace {
 
 constexpr double kCoarseSpeedMps = 20;     // how fast a coarse position grows old
 constexpr std::size_t kMaxCandidates = 4;  // segments tried at a start
-constexpr double kStartRefineM = 3;        // to either side of the start, for the second look
 constexpr double kEndMarginM = 3;          // the vehicle may be so far beyond a segment's ends
 
-// A start is found in two looks: all tracklets near the coarse position, then those near the
-// answer.
 struct Start {
-  Measurement measurement;
+  Sighting sighting;
   NearbySegment where;
 };
 
@@ -44,25 +42,19 @@ struct Localizer::Impl {
   LocalizerSettings settings;
   std::unique_ptr<Prefetcher> prefetcher;  // empty if turned off
 
-  std::optional<CoarsePosition> coarse;   // what a start goes by
-  std::optional<SegmentSession> session;  // the segment the vehicle is or last was on
-  std::unique_ptr<Tracker> tracker;       // while it is tracked there
+  std::optional<CoarsePosition> coarse;     // what a start goes by
+  std::unique_ptr<SegmentSession> session;  // the segment the vehicle is or last was on
+  std::unique_ptr<Follower> follower;       // with the session
+  bool tracked = false;                     // the follower was started and not given up
   int frames_without_measurement = 0;
   bool was_tracked = false;
   double prefetched_to_m = 0;
   std::optional<Error> noted;
 
-  std::vector<TrackletMatch> match(const FeatureSet& features, const AlongRange& region) const {
-    const double query_focal_px = std::sqrt(camera.focal_x_px * camera.focal_y_px);
-    return match_tracklets(features, session->map_focal_px / query_focal_px, camera.width_px,
-                           session->window, region, settings.method.match);
-  }
-
   Result<Fix> start(const QueryFrame& frame);
   Result<std::optional<Start>> find_start(const QueryFrame& frame,
                                           const std::vector<NearbySegment>& candidates);
-  Result<std::optional<Measurement>> look(const QueryFrame& frame, const AlongRange& region,
-                                          bool robustly);
+  bool coarse_is_fresh(double timestamp_s) const;
   Status enter(const NearbySegment& where);
   Result<Fix> track(const QueryFrame& frame);
   void leave(double timestamp_s);
@@ -89,7 +81,7 @@ void Localizer::observe(const CoarsePosition& position) { impl_->coarse = positi
 const std::optional<Error>& Localizer::noted_error() const { return impl_->noted; }
 
 Result<Fix> Localizer::localize(const QueryFrame& frame) {
-  return impl_->tracker ? impl_->track(frame) : impl_->start(frame);
+  return impl_->tracked ? impl_->track(frame) : impl_->start(frame);
 }
 
 Fix Localizer::Impl::unlocated(const QueryFrame& frame, FixStatus status) const {
@@ -100,10 +92,10 @@ Fix Localizer::Impl::unlocated(const QueryFrame& frame, FixStatus status) const 
 }
 
 Fix Localizer::Impl::located(const QueryFrame& frame, FixStatus status, int matches) const {
-  const TrackedPosition position = tracker->position();
+  const TrackedPosition position = follower->position();
   Fix fix = unlocated(frame, status);
-  fix.version = session->version;
-  fix.segment = session->segment;
+  fix.version = session->layer.version;
+  fix.segment = session->layer.segment;
   fix.along_m = std::clamp(position.along_m, 0.0, session->line.length_m());
   fix.sigma_m = position.sigma_m;
   fix.position = session->line.point_at(*fix.along_m);
@@ -111,28 +103,26 @@ Fix Localizer::Impl::located(const QueryFrame& frame, FixStatus status, int matc
   return fix;
 }
 
-Status Localizer::Impl::enter(const NearbySegment& where) {
-  if (session && session->version == where.version && session->segment == where.segment)
-    return ok_status();
-  Result<SegmentSession> opened =
-      open_session(source, where.version, where.segment, settings.method.layer, settings.window);
-  if (!opened) return opened.error();
-  session.emplace(std::move(*opened));
-  prefetched_to_m = 0;
-  return ok_status();
+bool Localizer::Impl::coarse_is_fresh(double timestamp_s) const {
+  return coarse && timestamp_s - coarse->timestamp_s <= settings.max_coarse_age_s;
 }
 
-// What the frame measures against the tracklets of a region of the session's segment.
-Result<std::optional<Measurement>> Localizer::Impl::look(const QueryFrame& frame,
-                                                         const AlongRange& region, bool robustly) {
-  const Status covered = session->window.cover(region);
-  if (!covered.ok()) return covered.error();
-  std::vector<PositionEstimate> estimates;
-  for (const TrackletMatch& found : match(frame.features(session->feature), region)) {
-    estimates.push_back(found.estimate);
+Status Localizer::Impl::enter(const NearbySegment& where) {
+  if (session && session->layer.version == where.version && session->layer.segment == where.segment)
+    return ok_status();
+  Result<SegmentSession> opened =
+      open_session({source, where.version, where.segment, settings.method.layer});
+  if (!opened) return opened.error();
+  follower.reset();  // it knows the old session
+  session = std::make_unique<SegmentSession>(std::move(*opened));
+  Result<std::unique_ptr<Follower>> made = make_follower(*session, camera, settings);
+  if (!made) {
+    session.reset();
+    return made.error();
   }
-  return robustly ? combine_robustly(estimates, settings.method.robust)
-                  : combine(estimates, settings.method);
+  follower = std::move(*made);
+  prefetched_to_m = 0;
+  return ok_status();
 }
 
 Result<std::optional<Start>> Localizer::Impl::find_start(
@@ -145,19 +135,17 @@ Result<std::optional<Start>> Localizer::Impl::find_start(
     const Status entered = enter(candidate);
     if (!entered.ok()) return entered.error();
     const AlongRange around = AlongRange{candidate.along_m, candidate.along_m}.widened(reach_m);
-    const Result<std::optional<Measurement>> seen = look(frame, around, true);
+    const Result<std::optional<Sighting>> seen = follower->find(frame, around);
     if (!seen) return seen.error();
-    if (!*seen || (*seen)->support < settings.min_start_support) continue;
-    if (!best || (*seen)->support > best->measurement.support) best = Start{**seen, candidate};
+    if (!*seen) continue;
+    if (!best || (*seen)->merit > best->sighting.merit) best = Start{**seen, candidate};
   }
   return best;
 }
 
 Result<Fix> Localizer::Impl::start(const QueryFrame& frame) {
   const FixStatus waiting = was_tracked ? FixStatus::lost : FixStatus::initializing;
-  if (!coarse || frame.timestamp_s - coarse->timestamp_s > settings.max_coarse_age_s) {
-    return unlocated(frame, waiting);
-  }
+  if (!coarse_is_fresh(frame.timestamp_s)) return unlocated(frame, waiting);
   const double radius_m = settings.start_radius_m + settings.start_sigmas * coarse->sigma_m;
   Result<std::vector<NearbySegment>> near = source->segments_near(coarse->position, radius_m);
   if (!near) return near.error();
@@ -169,38 +157,34 @@ Result<Fix> Localizer::Impl::start(const QueryFrame& frame) {
 
   const Status entered = enter((*found)->where);
   if (!entered.ok()) return entered.error();
-  const double along_m = (*found)->measurement.along_m;
-  const auto closer = look(frame, AlongRange{along_m, along_m}.widened(kStartRefineM), false);
-  if (!closer) return closer.error();
-  const Measurement first = *closer ? **closer : (*found)->measurement;
-  tracker = make_tracker(settings.method);
-  tracker->start(frame.timestamp_s, first);
+  const Result<int> matches = follower->start(frame, (*found)->sighting);
+  if (!matches) return matches.error();
+  tracked = true;
   frames_without_measurement = 0;
   was_tracked = true;
-  return located(frame, FixStatus::initializing, first.support);
+  return located(frame, FixStatus::initializing, *matches);
 }
 
 Result<Fix> Localizer::Impl::track(const QueryFrame& frame) {
-  const double expected_m = tracker->predict(frame.timestamp_s).along_m;
+  const double expected_m = follower->expected_along_m(frame.timestamp_s);
   if (expected_m < -kEndMarginM || expected_m > session->line.length_m() + kEndMarginM) {
-    tracker.reset();
+    tracked = false;
     was_tracked = false;
     const Result<Fix> elsewhere = start(frame);  // perhaps another segment begins here
     if (elsewhere && elsewhere->along_m) return elsewhere;
     return unlocated(frame, FixStatus::off_map);
   }
-  const Result<std::optional<Measurement>> seen =
-      look(frame, tracker->search_region(frame.timestamp_s), false);
-  if (!seen) noted = seen.error();
-  if (!seen && seen.error().code == ErrorCode::gone) {  // the map was rebuilt meanwhile
+  const Followed followed =
+      follower->follow(frame, coarse_is_fresh(frame.timestamp_s) ? coarse : std::nullopt);
+  if (followed.failure) noted = followed.failure;
+  if (followed.failure && followed.failure->code == ErrorCode::gone) {  // rebuilt meanwhile
     leave(frame.timestamp_s);
     return start(frame);
   }
-  const std::optional<Measurement> measured = seen ? *seen : std::nullopt;
-  if (tracker->advance(frame.timestamp_s, measured)) {
+  if (followed.measured) {
     frames_without_measurement = 0;
     prefetch_ahead();
-    return located(frame, FixStatus::tracking, measured->support);
+    return located(frame, FixStatus::tracking, followed.matches);
   }
   if (++frames_without_measurement <= settings.max_predicted_frames) {
     return located(frame, FixStatus::predicted, 0);
@@ -211,24 +195,24 @@ Result<Fix> Localizer::Impl::track(const QueryFrame& frame) {
 
 // Gives up the tracked position, and keeps it to start again from unless a receiver knows more.
 void Localizer::Impl::leave(double timestamp_s) {
-  const TrackedPosition last = tracker->position();
-  tracker.reset();
-  const bool receiver_is_fresh =
-      coarse && timestamp_s - coarse->timestamp_s <= settings.max_coarse_age_s;
-  if (!receiver_is_fresh) {
+  const TrackedPosition last = follower->position();
+  tracked = false;
+  if (!coarse_is_fresh(timestamp_s)) {
     coarse = CoarsePosition{timestamp_s, session->line.point_at(last.along_m),
                             std::max(last.sigma_m, 5.0)};
   }
+  follower.reset();
   session.reset();
 }
 
 void Localizer::Impl::prefetch_ahead() {
   if (!prefetcher) return;
-  const double at_m = tracker->position().along_m;
+  const double at_m = follower->position().along_m;
   if (at_m + settings.prefetch_m / 2 < prefetched_to_m) return;
   const AlongRange ahead = {at_m, at_m + settings.prefetch_m};
   if (prefetched_to_m < session->line.length_m()) {
-    prefetcher->request(session->version, session->segment, settings.method.layer, ahead);
+    prefetcher->request(session->layer.version, session->layer.segment, settings.method.layer,
+                        ahead);
   }
   prefetched_to_m = ahead.to_m;
 }

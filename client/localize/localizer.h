@@ -34,7 +34,7 @@ struct Fix {
   std::optional<double> along_m;     // [0, length of the segment]
   double sigma_m = 0;                // one standard deviation, with along_m
   std::optional<GeoPoint> position;  // of along_m on the segment's line
-  int matches = 0;                   // tracklets that agreed on the measurement
+  int matches = 0;                   // features that agreed on the measurement
 };
 
 // A coarse position, of a receiver of satellite signals.
@@ -45,16 +45,26 @@ struct CoarsePosition {
 };
 
 // One frame of the query camera. Its features are asked for once the map, and with it the
-// parameters of the extractor, is known; the reference is used during localize() only.
+// parameters of the extractor, is known; the reference is used during localize() only. Methods that
+// compare whole images ask for the descriptor of schema/feature/wisurf.h, and others never do.
 struct QueryFrame {
   double timestamp_s = 0;
   std::function<const FeatureSet&(const FeatureParameters&)> features;
+  std::function<const ImageDescriptor&()> image = {};
 };
 
 struct QueryCamera {
   int width_px = 0;
   double focal_x_px = 0;
   double focal_y_px = 0;
+};
+
+// What one tracklet said of a frame that was followed, for those who study estimates.
+struct TrackletEstimate {
+  PositionEstimate estimate;
+  double scale_px = 0;   // of the matched feature, as the map's camera would see it
+  AlongRange along;      // of the tracklet
+  double r_squared = 0;  // of its regression
 };
 
 struct LocalizerSettings {
@@ -67,6 +77,8 @@ struct LocalizerSettings {
   int max_predicted_frames = 8;  // frames without measurement before the vehicle counts as lost
   double prefetch_m = 300;       // fetched ahead in the background; 0 turns it off
   WindowSettings window;
+  // Called by localize() for each estimate of a frame that is followed by tracklets; may be empty.
+  std::function<void(const TrackletEstimate&)> on_estimate = {};
 };
 
 // Not safe to use from several threads at once. Fixes depend on frames, positions and map only:

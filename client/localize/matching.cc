@@ -17,13 +17,30 @@ struct Candidate {
   double along_m = 0;  // where it would put the camera
 };
 
-PositionEstimate estimate_from(const Tracklet& tracklet, ScaleModel model, double scale_px,
-                               double scale_noise) {
+PositionEstimate regressed(const Tracklet& tracklet, ScaleModel model, double scale_px,
+                           double scale_noise) {
   const double along_m = tracklet.along_estimate_m(model, scale_px);  // Eq. 3
   // d along = slope * d f(s); for both models |s * df/ds| = |f(s)|, so relative noise carries over.
   const double from_scale_m =
       scale_noise * std::abs(tracklet.slope * scale_variable(model, scale_px));
   return {along_m, std::max(std::hypot(tracklet.residual_sigma_m, from_scale_m), kMinSigmaM)};
+}
+
+// The frame of the observation whose scale is the closest, known to the spacing of the frames.
+PositionEstimate closest_observation(const Track& track, double scale_px) {
+  const auto closest = std::ranges::min_element(track, {}, [&](const Observation& observation) {
+    return std::abs(observation.feature.scale_px - scale_px);
+  });
+  const double length_m = track.back().along_m - track.front().along_m;
+  return {closest->along_m, length_m / static_cast<double>(track.size() - 1)};
+}
+
+PositionEstimate estimate_from(const TrackletWindow& window, std::size_t tracklet, double scale_px,
+                               const MatchSettings& settings) {
+  return settings.estimation == Estimation::regression
+             ? regressed(window.tracklets()[tracklet], window.model(), scale_px,
+                         settings.scale_noise)
+             : closest_observation(window.track(tracklet), scale_px);
 }
 
 bool fits(const Tracklet& tracklet, const Feature& feature, double scale_px, double pixel_margin_px,
@@ -45,11 +62,13 @@ std::optional<Candidate> distinct_nearest(const std::vector<Neighbour>& neighbou
   std::optional<Candidate> nearest;
   float second_squared = std::numeric_limits<float>::infinity();
   for (const Neighbour& neighbour : neighbours) {
-    const Tracklet& tracklet = window.tracklets()[neighbour.index];
+    const std::size_t index = window.tracklet_of(neighbour.index);
+    if (nearest && index == nearest->tracklet) continue;
+    const Tracklet& tracklet = window.tracklets()[index];
     if (!tracklet.along.meets(region)) continue;
     const double along_m = tracklet.along_estimate_m(window.model(), scale_px);
     if (!nearest) {
-      nearest = {neighbour.index, neighbour.distance_squared, along_m};
+      nearest = {index, neighbour.distance_squared, along_m};
     } else if (!(std::abs(along_m - nearest->along_m) < settings.same_place_m)) {
       second_squared = neighbour.distance_squared;
       break;
@@ -99,10 +118,9 @@ std::vector<TrackletMatch> match_tracklets(const FeatureSet& query, double scale
   const AlongRange believable = region.widened(settings.region_margin_m);
   for (const auto& [tracklet, best] : best_of_tracklet) {
     const double scale_px = scale_ratio * query.features[best.feature].scale_px;
-    const PositionEstimate estimate =
-        estimate_from(window.tracklets()[tracklet], window.model(), scale_px, settings.scale_noise);
+    const PositionEstimate estimate = estimate_from(window, tracklet, scale_px, settings);
     if (believable.contains(estimate.along_m))
-      matches.push_back({best.feature, tracklet, estimate});
+      matches.push_back({best.feature, tracklet, scale_px, estimate});
   }
   std::sort(matches.begin(), matches.end(), [](const TrackletMatch& a, const TrackletMatch& b) {
     return a.feature < b.feature;  // an order that no hash decides

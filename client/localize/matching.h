@@ -11,7 +11,13 @@
 
 namespace milepost {
 
+// What a matched feature says of the capture position: the tracklet's regression at the feature's
+// scale (Eq. 3), or where the map's frame was whose observation's scale is the closest (the paper's
+// comparative method 3, section 5.2).
+enum class Estimation { regression, closest_observation };
+
 struct MatchSettings {
+  Estimation estimation = Estimation::regression;
   double max_distance_ratio = 0.8;  // nearest neighbour distance ratio, of descriptor distances
   std::size_t neighbours = 6;       // looked at for each feature
   // A neighbour that would put the camera at the same place does not count against the nearest one:
@@ -27,12 +33,14 @@ struct MatchSettings {
 struct TrackletMatch {
   std::size_t feature = 0;   // of the query
   std::size_t tracklet = 0;  // of the window
+  double scale_px = 0;       // of the feature, as the map's camera would see it
   PositionEstimate estimate;
 };
 
 // The matches of features to tracklets whose along range meets `region`. `scale_ratio` brings
 // scales of the query's camera to those of the map's camera; `image_width_px` is of the query's
 // images. Each tracklet and each feature occurs once at most.
+// REQUIRES: a window of observations for Estimation::closest_observation.
 std::vector<TrackletMatch> match_tracklets(const FeatureSet& query, double scale_ratio,
                                            int image_width_px, const TrackletWindow& window,
                                            const AlongRange& region, const MatchSettings& settings);

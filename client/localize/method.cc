@@ -3,22 +3,40 @@
 namespace milepost {
 namespace {
 
-// The tracklet paper's proposed methods 1 and 2 (section 5.2): regression on scale, the mean of all
-// estimates, without and with its Kalman filter.
-Method paper_method(const std::string& name, bool filter) {
-  Method method;
-  method.name = name;
-  method.layer = "tracklets-scale";
+// Regression on scale, the mean of all estimates, without and with a filter: the tracklet paper's
+// proposed methods 1 and 2 (section 5.2), and the particle filter of section 5.4.
+TrackletMethod paper_method(PaperFilter filter) {
+  TrackletMethod method;
   method.match.region_margin_m = 0;
   method.combination = Combination::mean;
   method.tracker = PaperTrackerSettings{.filter = filter};
   return method;
 }
 
-Method milepost_method() {
-  Method method;
-  method.name = kDefaultMethod;
-  method.layer = "tracklets";
+// The regression of tracklet-regression with the descriptors of all observations in place of their
+// mean: what averaging costs. For the laboratory.
+TrackletMethod unaveraged_method() {
+  TrackletMethod method = paper_method(PaperFilter::none);
+  method.match.neighbours = 40;  // a tracklet has as many descriptors as observations
+  return method;
+}
+
+// Comparative method 3: the closest frame of the map for each feature, no regression.
+TrackletMethod matching_method() {
+  TrackletMethod method = unaveraged_method();
+  method.match.estimation = Estimation::closest_observation;
+  return method;
+}
+
+// Comparative methods 1 and 2.
+WarpMethod warp_method(FrameComparison comparison) {
+  WarpMethod method;
+  method.comparison = comparison;
+  return method;
+}
+
+TrackletMethod milepost_method() {
+  TrackletMethod method;
   method.match.max_distance_ratio = 0.85;
   method.match.same_place_m = 2.0;
   method.match.scale_range_margin = 0.3;
@@ -27,31 +45,45 @@ Method milepost_method() {
   return method;
 }
 
+const std::vector<Method>& methods() {
+  static const std::vector<Method> all = {
+      {"wisurf", "wisurf", warp_method(FrameComparison::image)},
+      {"scale-only", "frames", warp_method(FrameComparison::scale)},
+      {"tracklet-matching", "observations", matching_method()},
+      {"tracklet-regression", "tracklets-scale", paper_method(PaperFilter::none)},
+      {"tracklet-regression-kalman", "tracklets-scale", paper_method(PaperFilter::kalman)},
+      {"tracklet-regression-particle", "tracklets-scale", paper_method(PaperFilter::particle)},
+      {"tracklet-regression-unaveraged", "observations", unaveraged_method()},
+      {kDefaultMethod, "tracklets", milepost_method()},
+  };
+  return all;
+}
+
 }  // namespace
 
-const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names = {"tracklet-regression",
-                                                 "tracklet-regression-kalman", kDefaultMethod};
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) names.push_back(method.name);
   return names;
 }
 
 Result<Method> method_named(const std::string& name) {
-  if (name == "tracklet-regression") return paper_method(name, false);
-  if (name == "tracklet-regression-kalman") return paper_method(name, true);
-  if (name == kDefaultMethod) return milepost_method();
   std::string known;
-  for (const std::string& each : method_names()) known += (known.empty() ? "" : ", ") + each;
+  for (const Method& method : methods()) {
+    if (method.name == name) return method;
+    known += (known.empty() ? "" : ", ") + method.name;
+  }
   return Error{ErrorCode::invalid_input, "--method", "'" + name + "' is no method",
                "choose from " + known};
 }
 
 std::optional<Measurement> combine(const std::vector<PositionEstimate>& estimates,
-                                   const Method& method) {
+                                   const TrackletMethod& method) {
   return method.combination == Combination::mean ? combine_by_mean(estimates, method.min_sigma_m)
                                                  : combine_robustly(estimates, method.robust);
 }
 
-std::unique_ptr<Tracker> make_tracker(const Method& method) {
+std::unique_ptr<Tracker> make_tracker(const TrackletMethod& method) {
   if (const auto* paper = std::get_if<PaperTrackerSettings>(&method.tracker)) {
     return make_paper_tracker(*paper);
   }

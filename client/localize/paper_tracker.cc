@@ -1,52 +1,68 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/localize/along_filter.h"
 #include "client/localize/kalman.h"
 #include "client/localize/tracker.h"
 
 namespace milepost {
 namespace {
 
+std::unique_ptr<AlongFilter> make_filter(const PaperTrackerSettings& settings) {
+  return settings.filter == PaperFilter::particle
+             ? make_particle_filter(settings.particles, settings.seed)
+             : make_kalman_filter();
+}
+
+AlongBelief as_measured(const Measurement& measurement) {
+  return {measurement.along_m, measurement.sigma_m * measurement.sigma_m};
+}
+
 class PaperTracker : public Tracker {
  public:
-  explicit PaperTracker(const PaperTrackerSettings& settings) : settings_(settings) {}
+  explicit PaperTracker(const PaperTrackerSettings& settings)
+      : settings_(settings), filter_(make_filter(settings)) {}
 
   void start(double timestamp_s, const Measurement& measurement) override {
     latest_s_ = timestamp_s;
-    belief_ = {measurement.along_m, measurement.sigma_m * measurement.sigma_m};
+    filter_->reset(as_measured(measurement));
     before_.reset();
     frames_ = 1;
   }
 
   TrackedPosition predict(double timestamp_s) const override {
-    const AlongBelief predicted = predicted_at(timestamp_s);
+    const AlongBelief predicted =
+        milepost::predict(filter_->belief(), step_to(timestamp_s), settings_.sigma_w_m);
     return {predicted.along_m, std::sqrt(predicted.variance_m2)};
   }
 
   AlongRange search_region(double timestamp_s) const override {
     const double step_m = before_ ? step_to(timestamp_s) : max_step_m(timestamp_s) / settings_.rho;
-    return AlongRange{belief_.along_m, belief_.along_m + settings_.rho * step_m}.widened(
-        settings_.min_region_m);
+    const double latest_m = filter_->belief().along_m;
+    return AlongRange{latest_m, latest_m + settings_.rho * step_m}.widened(settings_.min_region_m);
   }
 
   bool advance(double timestamp_s, const std::optional<Measurement>& measurement) override {
-    const AlongBelief predicted = predicted_at(timestamp_s);
-    AlongBelief next = predicted;
+    const Instant latest = {filter_->belief().along_m, latest_s_};
+    filter_->predict(step_to(timestamp_s), settings_.sigma_w_m);
     if (measurement) {
-      const bool visual_only = !settings_.filter || frames_ < settings_.first_frames;
-      next = visual_only
-                 ? AlongBelief{measurement->along_m, measurement->sigma_m * measurement->sigma_m}
-                 : update(predicted, *measurement, variance_weight(predicted, *measurement));
+      const bool visual_only =
+          settings_.filter == PaperFilter::none || frames_ < settings_.first_frames;
+      if (visual_only) {
+        filter_->reset(as_measured(*measurement));
+      } else {
+        filter_->update(*measurement, variance_weight(filter_->belief(), *measurement));
+      }
       ++frames_;
     }
-    before_ = Instant{belief_.along_m, latest_s_};
-    belief_ = next;
+    before_ = latest;
     latest_s_ = timestamp_s;
     return measurement.has_value();
   }
 
   TrackedPosition position() const override {
-    return {belief_.along_m, std::sqrt(belief_.variance_m2)};
+    const AlongBelief belief = filter_->belief();
+    return {belief.along_m, std::sqrt(belief.variance_m2)};
   }
 
  private:
@@ -62,15 +78,11 @@ class PaperTracker : public Tracker {
                                                             : settings_.weight_beyond;
   }
 
-  AlongBelief predicted_at(double timestamp_s) const {
-    return milepost::predict(belief_, step_to(timestamp_s), settings_.sigma_w_m);
-  }
-
   // Eq. 16 within what a vehicle on its way along the segment can do.
   double step_to(double timestamp_s) const {
     if (!before_) return 0;
-    const double step_m = constant_velocity_step_m(before_->along_m, before_->time_s,
-                                                   belief_.along_m, latest_s_, timestamp_s);
+    const double step_m = constant_velocity_step_m(
+        before_->along_m, before_->time_s, filter_->belief().along_m, latest_s_, timestamp_s);
     return std::clamp(step_m, 0.0, max_step_m(timestamp_s));
   }
 
@@ -79,7 +91,7 @@ class PaperTracker : public Tracker {
   }
 
   PaperTrackerSettings settings_;
-  AlongBelief belief_;
+  std::unique_ptr<AlongFilter> filter_;
   double latest_s_ = 0;
   std::optional<Instant> before_;
   int frames_ = 0;

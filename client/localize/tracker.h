@@ -1,6 +1,8 @@
 // Carries the belief about the along position from frame to frame.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -30,11 +32,14 @@ class Tracker {
   virtual TrackedPosition position() const = 0;
 };
 
+// None takes each measurement alone; Kalman's is Eqs 9 to 11; particles are section 5.4.
+enum class PaperFilter { none, kalman, particle };
+
 // The paper's: candidate region between the last position and rho predicted steps ahead (section
-// 4.2.2), constant velocity (Eq. 16), and with `filter` the Kalman filter (Eqs 9 to 11); without,
-// the measurement alone. The first frames are taken as measured (section 4.2.4).
+// 4.2.2), constant velocity (Eq. 16), and a filter. The first frames are taken as measured (section
+// 4.2.4).
 struct PaperTrackerSettings {
-  bool filter = true;
+  PaperFilter filter = PaperFilter::kalman;
   double rho = 2.0;           // section 4.2.2
   double min_region_m = 2.0;  // to either side, where the vehicle stands or Eq. 16 is noisy
   double max_speed_mps = 50;  // bounds Eq. 16, and the region before there is a velocity
@@ -43,6 +48,8 @@ struct PaperTrackerSettings {
   double weight_within = 0.1;           // of the measurement's variance up to the threshold
   double weight_beyond = 1;             // ... and beyond it
   int first_frames = 3;                 // by visual estimates only
+  std::size_t particles = 4000;         // section 5.4
+  std::uint64_t seed = 1;               // of the particles' draws
 };
 std::unique_ptr<Tracker> make_paper_tracker(const PaperTrackerSettings& settings);
 

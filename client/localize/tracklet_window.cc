@@ -3,51 +3,55 @@
 #include "schema/tile/codec.h"
 
 namespace milepost {
+namespace {
 
-TrackletWindow::TrackletWindow(std::shared_ptr<MapSource> source, MapVersion version,
-                               std::string segment, std::string layer,
-                               const WindowSettings& settings)
-    : source_(std::move(source)),
-      version_(std::move(version)),
-      segment_(std::move(segment)),
-      layer_(std::move(layer)),
+// A tile of tracklets as one whose observations were not kept.
+Result<ObservationTile> decode_tracklets(ByteView frame) {
+  const Result<TrackletTile> tile = decode_tile(frame);
+  if (!tile) return tile.error();
+  ObservationTile unobserved{tile->segment, tile->index, tile->model, {}};
+  unobserved.tracklets.reserve(tile->tracklets.size());
+  for (const Tracklet& tracklet : tile->tracklets) unobserved.tracklets.push_back({tracklet, {}});
+  return unobserved;
+}
+
+}  // namespace
+
+TrackletWindow::TrackletWindow(LayerSource from, LayerItems items, const WindowSettings& settings)
+    : tiles_(std::move(from), settings.reach,
+             items == LayerItems::observations ? decode_observations : decode_tracklets),
       settings_(settings) {
   rebuild();
 }
 
 Status TrackletWindow::cover(const AlongRange& range) {
-  const bool covered = covered_.from_m <= range.from_m && range.to_m <= covered_.to_m;
-  if (covered) return ok_status();
-  const AlongRange wanted = {range.from_m - settings_.behind_m, range.to_m + settings_.ahead_m};
-  const Result<std::vector<TileFrame>> frames = source_->tiles(version_, segment_, layer_, wanted);
-  if (!frames) return frames.error();
-
-  std::map<std::uint32_t, TrackletTile> tiles;
-  for (const TileFrame& frame : *frames) {
-    if (auto held = tiles_.extract(frame.index)) {
-      tiles.insert(std::move(held));
-      continue;
-    }
-    Result<TrackletTile> tile = decode_tile(frame.frame);
-    if (!tile) return tile.error();
-    tiles.emplace(frame.index, std::move(*tile));
-  }
-  tiles_ = std::move(tiles);
-  covered_ = wanted;
-  rebuild();
+  const Result<bool> changed = tiles_.cover(range);
+  if (!changed) return changed.error();
+  if (*changed) rebuild();
   return ok_status();
 }
 
 void TrackletWindow::rebuild() {
   tracklets_.clear();
+  tracks_.clear();
   descriptors_.clear();
-  for (const auto& [index, tile] : tiles_) {
+  tracklet_of_.clear();
+  for (const auto& [index, tile] : tiles_.tiles()) {
     model_ = tile.model;
-    tracklets_.insert(tracklets_.end(), tile.tracklets.begin(), tile.tracklets.end());
+    for (const ObservedTracklet& observed : tile.tracklets) {
+      tracklets_.push_back(observed.tracklet);
+      tracks_.push_back(observed.track);
+      add_descriptors(tracklets_.size() - 1);
+    }
   }
-  descriptors_.reserve(tracklets_.size());
-  for (const Tracklet& tracklet : tracklets_) descriptors_.push_back(tracklet.descriptor);
   index_ = std::make_unique<DescriptorIndex>(descriptors_, settings_.index);
+}
+
+void TrackletWindow::add_descriptors(std::size_t tracklet) {
+  const Track& track = tracks_[tracklet];
+  for (const Observation& observation : track) descriptors_.push_back(observation.descriptor);
+  if (track.empty()) descriptors_.push_back(tracklets_[tracklet].descriptor);
+  tracklet_of_.resize(descriptors_.size(), tracklet);
 }
 
 }  // namespace milepost

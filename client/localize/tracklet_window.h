@@ -1,28 +1,27 @@
 // The tracklets around the vehicle: decoded tiles of one layer of one segment, with an index.
 #pragma once
 
-#include <map>
+#include <cstddef>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "client/fetch/map_source.h"
+#include "client/localize/tile_window.h"
 #include "schema/feature/descriptor_index.h"
-#include "schema/tile/tracklet.h"
+#include "schema/tile/layer_items.h"
+#include "schema/tile/observation.h"
 
 namespace milepost {
 
 struct WindowSettings {
-  double ahead_m = 60;   // fetched beyond what is needed, so that not every frame asks the source
-  double behind_m = 60;  // kept behind what is needed
+  WindowReach reach;
   IndexSettings index;
 };
 
 // Not safe to use from several threads at once.
 class TrackletWindow {
  public:
-  TrackletWindow(std::shared_ptr<MapSource> source, MapVersion version, std::string segment,
-                 std::string layer, const WindowSettings& settings);
+  // REQUIRES: `items` are tracklets or observations.
+  TrackletWindow(LayerSource from, LayerItems items, const WindowSettings& settings);
 
   // Makes sure that every tracklet whose along range meets `range` is held; fetches and lets go.
   // After an error what was held is held still. Errors: those of MapSource::tiles, corrupt (a
@@ -31,24 +30,25 @@ class TrackletWindow {
 
   // Valid until the next cover().
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }
+  const Track& track(std::size_t tracklet) const { return tracks_[tracklet]; }  // may be empty
   ScaleModel model() const { return model_; }
-  const DescriptorIndex& index() const { return *index_; }  // over tracklets(), in their order
-  const AlongRange& covered() const { return covered_; }
+  // Over the tracklets' descriptors, or over those of all their observations where the layer keeps
+  // them.
+  const DescriptorIndex& index() const { return *index_; }
+  // The tracklet that a descriptor of the index belongs to.
+  std::size_t tracklet_of(std::size_t descriptor) const { return tracklet_of_[descriptor]; }
 
  private:
   void rebuild();
+  void add_descriptors(std::size_t tracklet);
 
-  std::shared_ptr<MapSource> source_;
-  MapVersion version_;
-  std::string segment_;
-  std::string layer_;
+  TileWindow<ObservationTile> tiles_;
   WindowSettings settings_;
-
-  AlongRange covered_{0, -1};
-  std::map<std::uint32_t, TrackletTile> tiles_;
   ScaleModel model_ = ScaleModel::inverse_scale;
   std::vector<Tracklet> tracklets_;
-  std::vector<Descriptor> descriptors_;
+  std::vector<Track> tracks_;            // one a tracklet
+  std::vector<Descriptor> descriptors_;  // of the index
+  std::vector<std::size_t> tracklet_of_;
   std::unique_ptr<DescriptorIndex> index_;
 };
 

@@ -1,56 +1,21 @@
 #include "mapper/build/build_map.h"
 
-#include <algorithm>
 #include <set>
 
+#include "mapper/build/layer_builder.h"
 #include "mapper/build/layers.h"
 #include "mapper/build/segment_plan.h"
 #include "mapper/frames/frame_pipeline.h"
-#include "mapper/tiles/tile_assembler.h"
 #include "schema/store/map_store.h"
-#include "schema/tile/codec.h"
 
 namespace milepost {
 namespace {
 
 using OnProgress = std::function<bool(const BuildProgress&)>;
 
-// Regresses tracks into one layer of one segment and writes its tiles as they become complete.
-class LayerBuilder {
- public:
-  LayerBuilder(TrackletLayer layer, const std::string& segment, double tile_length_m)
-      : layer_(std::move(layer)),
-        segment_(segment),
-        tiles_(segment, layer_.regression.model, tile_length_m) {}
-
-  void add(const std::vector<Track>& tracks) {
-    for (const Track& track : tracks) {
-      if (const auto tracklet = tracklet_from_track(track, layer_.regression))
-        tiles_.add(*tracklet);
-    }
-  }
-
-  Status write(const std::vector<TrackletTile>& complete, MapWriter& map,
-               BuildReport& report) const {
-    for (const TrackletTile& tile : complete) {
-      const Bytes frame = encode_tile(tile);
-      const Status added = map.add_tile(segment_, layer_.name, tile.index, tile.along(),
-                                        tile.tracklets.size(), frame);
-      if (!added.ok()) return added;
-      ++report.tiles;
-      if (layer_.name != "tracklets") continue;
-      report.tracklets += tile.tracklets.size();
-      report.tracklet_bytes += frame.size();
-    }
-    return ok_status();
-  }
-
-  TileAssembler& tiles() { return tiles_; }
-
- private:
-  TrackletLayer layer_;
-  std::string segment_;
-  TileAssembler tiles_;
+struct NamedBuilder {
+  std::string layer;
+  std::unique_ptr<LayerBuilder> builder;
 };
 
 // Follows the features of one segment's frames through to its tiles.
@@ -61,18 +26,19 @@ class SegmentBuilder {
         plan_(plan),
         settings_(settings),
         follower_(settings.follow, drive.camera.width_px) {
-    for (TrackletLayer& layer : tracklet_layers(settings)) {
-      layers_.emplace_back(std::move(layer), plan.id, settings.tile_length_m);
+    for (const Layer& layer : layers_of(settings)) {
+      layers_.push_back({layer.name, make_layer_builder(layer, plan.id, settings.tile_length_m)});
     }
   }
 
   Status run(int jobs, MapWriter& map, BuildReport& report, BuildProgress& progress,
              const OnProgress& on_progress) {
-    FramePipeline features(drive_, plan_.frame_indices, settings_.feature, jobs);
+    FramePipeline frames(drive_, plan_.frame_indices, settings_.feature, settings_.lab, jobs);
     for (const double along_m : plan_.line.along_m()) {
-      const Result<FeatureSet> frame = features.next();
+      const Result<ExtractedFrame> frame = frames.next();
       if (!frame) return frame.error();
-      const std::vector<Track> ended = follower_.add(*frame, along_m);
+      for (const NamedBuilder& layer : layers_) layer.builder->add_frame(*frame, along_m);
+      const std::vector<Track> ended = follower_.add(frame->features, along_m);
       const Status written = add_and_write(ended, follower_.oldest_open_along_m(), map, report);
       if (!written.ok()) return written;
       ++progress.frames_done;
@@ -88,11 +54,19 @@ class SegmentBuilder {
  private:
   Status add_and_write(const std::vector<Track>& ended, double complete_until_m, MapWriter& map,
                        BuildReport& report) {
-    for (LayerBuilder& layer : layers_) {
-      layer.add(ended);
-      const Status written =
-          layer.write(layer.tiles().take_complete(complete_until_m), map, report);
-      if (!written.ok()) return written;
+    for (const NamedBuilder& layer : layers_) {
+      layer.builder->add_tracks(ended);
+      const Result<std::vector<StoredTile>> tiles = layer.builder->take_complete(complete_until_m);
+      if (!tiles) return tiles.error();
+      for (const StoredTile& tile : *tiles) {
+        const Status added =
+            map.add_tile(plan_.id, layer.layer, tile.index, tile.along, tile.items, tile.frame);
+        if (!added.ok()) return added;
+        ++report.tiles;
+        if (layer.layer != "tracklets") continue;
+        report.tracklets += tile.items;
+        report.tracklet_bytes += tile.frame.size();
+      }
     }
     return ok_status();
   }
@@ -101,7 +75,7 @@ class SegmentBuilder {
   const SegmentPlan& plan_;
   const BuildSettings& settings_;
   FeatureFollower follower_;
-  std::vector<LayerBuilder> layers_;
+  std::vector<NamedBuilder> layers_;
 };
 
 Status check_names_differ(const std::vector<SegmentPlan>& plans) {
@@ -144,7 +118,7 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   Result<MapWriter> map = MapWriter::create(map_file);
   if (!map) return map.error();
   Status status = map->set_feature_json(to_json(settings.feature));
-  for (const TrackletLayer& layer : tracklet_layers(settings)) {
+  for (const Layer& layer : layers_of(settings)) {
     if (status.ok())
       status = map->add_layer(
           layer.name, parameters_json(layer, drives.front().camera, settings.tile_length_m));

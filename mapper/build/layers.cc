@@ -4,22 +4,26 @@
 
 namespace milepost {
 
-std::vector<TrackletLayer> tracklet_layers(const BuildSettings& settings) {
-  std::vector<TrackletLayer> layers = {{"tracklets", settings.regression}};
+std::vector<Layer> layers_of(const BuildSettings& settings) {
+  std::vector<Layer> layers = {{"tracklets", LayerItems::tracklets, settings.regression, {}}};
   if (settings.lab) {
-    layers.push_back({"tracklets-scale", {ScaleModel::scale, settings.regression.min_r_squared}});
+    const RegressionSettings published = {ScaleModel::scale, settings.regression.min_r_squared};
+    layers.push_back({"tracklets-scale", LayerItems::tracklets, published, {}});
+    layers.push_back({"observations", LayerItems::observations, published, {}});
+    layers.push_back({"frames", LayerItems::frames, {}, {.features = true}});
+    layers.push_back({"wisurf", LayerItems::frames, {}, {.image = true}});
   }
   return layers;
 }
 
-std::string parameters_json(const TrackletLayer& layer, const Camera& camera,
-                            double tile_length_m) {
-  const nlohmann::ordered_json parameters = {
-      {"items", "tracklets"},
-      {"model", layer.regression.model == ScaleModel::scale ? "scale" : "inverse-scale"},
-      {"min_r_squared", layer.regression.min_r_squared},
-      {"tile_length_m", tile_length_m},
-      {"focal_px", {camera.focal_x_px, camera.focal_y_px}}};
+std::string parameters_json(const Layer& layer, const Camera& camera, double tile_length_m) {
+  nlohmann::ordered_json parameters = {{"items", name_of(layer.items)}};
+  if (layer.items != LayerItems::frames) {
+    parameters["model"] = layer.regression.model == ScaleModel::scale ? "scale" : "inverse-scale";
+    parameters["min_r_squared"] = layer.regression.min_r_squared;
+  }
+  parameters["tile_length_m"] = tile_length_m;
+  parameters["focal_px"] = {camera.focal_x_px, camera.focal_y_px};
   return parameters.dump();
 }
 

@@ -1,4 +1,4 @@
-// The layers of tracklets that a build makes: the default method's and, for the laboratory, others.
+// The layers that a build makes: the default method's and, for the laboratory, those of the others.
 #pragma once
 
 #include <string>
@@ -6,20 +6,30 @@
 
 #include "mapper/build/settings.h"
 #include "schema/drive/drive.h"
+#include "schema/tile/layer_items.h"
 
 namespace milepost {
 
-struct TrackletLayer {
-  std::string name;
-  RegressionSettings regression;
+struct FrameParts {
+  bool features = false;  // all of each frame
+  bool image = false;     // the descriptor of the whole image
 };
 
-// `tracklets`, which serves the default method, and with settings.lab `tracklets-scale`, the
-// regression on scale as the paper publishes it.
-std::vector<TrackletLayer> tracklet_layers(const BuildSettings& settings);
+struct Layer {
+  std::string name;
+  LayerItems items = LayerItems::tracklets;
+  RegressionSettings regression;  // of tracklets, with or without their observations
+  FrameParts parts;               // of frames
+};
 
-// The layer's parameters as the map keeps them: a JSON object. The camera's focal lengths are among
-// them, since feature scales of another camera compare only after scaling by their ratio.
-std::string parameters_json(const TrackletLayer& layer, const Camera& camera, double tile_length_m);
+// `tracklets`, which serves the default method, and with settings.lab: `tracklets-scale`, the
+// regression on scale as the paper publishes it; `observations`, every observation of the same
+// tracklets; `frames`, all features of each frame; `wisurf`, a descriptor of each whole frame.
+std::vector<Layer> layers_of(const BuildSettings& settings);
+
+// The layer's parameters as the map keeps them (FORMAT.md 2.4): a JSON object. The camera's focal
+// lengths are among them, since feature scales of another camera compare only after scaling by
+// their ratio.
+std::string parameters_json(const Layer& layer, const Camera& camera, double tile_length_m);
 
 }  // namespace milepost

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "mapper/follow/track.h"
 #include "schema/feature/descriptor_index.h"
+#include "schema/tile/observation.h"
 
 namespace milepost {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mapper/follow/track.h"
+#include "schema/tile/observation.h"
 
 namespace milepost {
 

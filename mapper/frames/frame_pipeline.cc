@@ -8,6 +8,7 @@
 
 #include "schema/drive/frame_image.h"
 #include "schema/feature/extractor.h"
+#include "schema/feature/wisurf.h"
 
 namespace milepost {
 
@@ -16,6 +17,7 @@ struct FramePipeline::Impl {
   const Drive& drive;
   const std::vector<std::size_t> frame_indices;
   const FeatureParameters parameters;
+  const bool images;
   const std::size_t look_ahead;
 
   // Protected by `mutex`.
@@ -24,16 +26,17 @@ struct FramePipeline::Impl {
   std::condition_variable result_ready;
   std::size_t next_to_start = 0;
   std::size_t next_to_hand_out = 0;
-  std::map<std::size_t, Result<FeatureSet>> done;
+  std::map<std::size_t, Result<ExtractedFrame>> done;
   bool stopping = false;
 
   std::vector<std::thread> threads;
 
   Impl(const Drive& from, std::vector<std::size_t> indices, const FeatureParameters& with,
-       int count)
+       bool with_images, int count)
       : drive(from),
         frame_indices(std::move(indices)),
         parameters(with),
+        images(with_images),
         look_ahead(2 * static_cast<std::size_t>(count)) {}
 
   // The position in `frame_indices` to work on, or nothing when there is no more work.
@@ -47,22 +50,25 @@ struct FramePipeline::Impl {
     return next_to_start++;
   }
 
+  Result<ExtractedFrame> extract(const cv::Mat& gray, FeatureExtractor& extractor) const {
+    return ExtractedFrame{extractor.extract(gray), images ? wisurf(gray) : ImageDescriptor{}};
+  }
+
   void work() {
     FeatureExtractor extractor(parameters);
     while (const auto position = start_one()) {
       const Result<cv::Mat> gray = read_frame_gray(drive, frame_indices[*position]);
-      Result<FeatureSet> features =
-          gray ? Result<FeatureSet>(extractor.extract(*gray)) : gray.error();
+      Result<ExtractedFrame> frame = gray ? extract(*gray, extractor) : gray.error();
       const std::lock_guard lock(mutex);
-      done.emplace(*position, std::move(features));
+      done.emplace(*position, std::move(frame));
       result_ready.notify_one();
     }
   }
 };
 
 FramePipeline::FramePipeline(const Drive& drive, std::vector<std::size_t> frame_indices,
-                             const FeatureParameters& parameters, int threads)
-    : impl_(std::make_unique<Impl>(drive, std::move(frame_indices), parameters, threads)) {
+                             const FeatureParameters& parameters, bool images, int threads)
+    : impl_(std::make_unique<Impl>(drive, std::move(frame_indices), parameters, images, threads)) {
   for (int i = 0; i < threads; ++i) impl_->threads.emplace_back([this] { impl_->work(); });
 }
 
@@ -75,7 +81,7 @@ FramePipeline::~FramePipeline() {
   for (std::thread& thread : impl_->threads) thread.join();
 }
 
-Result<FeatureSet> FramePipeline::next() {
+Result<ExtractedFrame> FramePipeline::next() {
   std::unique_lock lock(impl_->mutex);
   impl_->result_ready.wait(lock, [this] { return impl_->done.contains(impl_->next_to_hand_out); });
   auto taken = impl_->done.extract(impl_->next_to_hand_out++);

@@ -10,21 +10,26 @@
 
 namespace milepost {
 
+struct ExtractedFrame {
+  FeatureSet features;
+  ImageDescriptor image{};  // all 0 unless it was asked for
+};
+
 // Works a bounded number of frames ahead of the consumer, so memory does not grow with the drive.
 // next() is called from one thread; destruction stops the threads.
 class FramePipeline {
  public:
-  // The features of `drive.frames[i]` for each i of `frame_indices`, on `threads` >= 1 threads.
-  // REQUIRES: `drive` outlives the pipeline.
+  // The features of `drive.frames[i]` for each i of `frame_indices`, and with `images` the whole
+  // images' descriptors, on `threads` >= 1 threads. REQUIRES: `drive` outlives the pipeline.
   FramePipeline(const Drive& drive, std::vector<std::size_t> frame_indices,
-                const FeatureParameters& parameters, int threads);
+                const FeatureParameters& parameters, bool images, int threads);
   ~FramePipeline();
   FramePipeline(const FramePipeline&) = delete;
   FramePipeline& operator=(const FramePipeline&) = delete;
 
-  // The next frame's features. REQUIRES: called at most once a frame index.
+  // The next frame. REQUIRES: called at most once a frame index.
   // Errors: those of read_frame_gray.
-  Result<FeatureSet> next();
+  Result<ExtractedFrame> next();
 
  private:
   struct Impl;

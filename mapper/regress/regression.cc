@@ -29,32 +29,6 @@ LineFit fit_line(const Eigen::VectorXd& f, const Eigen::VectorXd& l) {
   return fit;
 }
 
-Descriptor mean_descriptor(const Track& track) {  // Eq. 15
-  Descriptor mean{};
-  for (std::size_t k = 0; k < mean.size(); ++k) {
-    std::size_t sum = 0;
-    for (const Observation& observation : track) sum += observation.descriptor[k];
-    mean[k] = static_cast<std::uint8_t>((sum + track.size() / 2) / track.size());
-  }
-  return mean;
-}
-
-void set_ranges(const Track& track, Tracklet& tracklet) {
-  const Feature& first = track.front().feature;
-  tracklet.along = {track.front().along_m, track.back().along_m};
-  tracklet.scale_min_px = tracklet.scale_max_px = first.scale_px;
-  tracklet.pixels = {first.x_px, first.x_px, first.y_px, first.y_px};
-  for (const Observation& observation : track) {
-    const Feature& feature = observation.feature;
-    tracklet.scale_min_px = std::min(tracklet.scale_min_px, feature.scale_px);
-    tracklet.scale_max_px = std::max(tracklet.scale_max_px, feature.scale_px);
-    tracklet.pixels.x_min_px = std::min(tracklet.pixels.x_min_px, feature.x_px);
-    tracklet.pixels.x_max_px = std::max(tracklet.pixels.x_max_px, feature.x_px);
-    tracklet.pixels.y_min_px = std::min(tracklet.pixels.y_min_px, feature.y_px);
-    tracklet.pixels.y_max_px = std::max(tracklet.pixels.y_max_px, feature.y_px);
-  }
-}
-
 }  // namespace
 
 std::optional<Tracklet> tracklet_from_track(const Track& track,
@@ -72,14 +46,12 @@ std::optional<Tracklet> tracklet_from_track(const Track& track,
   if (!usable) return std::nullopt;  // so are the NaN of a track without way or growth
 
   Tracklet tracklet;
-  tracklet.descriptor = mean_descriptor(track);
   tracklet.offset_m = fit.theta[0];
   tracklet.slope = fit.theta[1];
   tracklet.r_squared = static_cast<float>(std::min(r_squared, 1.0));
   tracklet.residual_sigma_m =
       static_cast<float>(std::sqrt(fit.ss_res / static_cast<double>(count - 2)));
-  tracklet.observations = static_cast<std::uint16_t>(std::min<Eigen::Index>(count, UINT16_MAX));
-  set_ranges(track, tracklet);
+  set_from_track(track, tracklet);
   return tracklet;
 }
 

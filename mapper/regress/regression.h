@@ -4,8 +4,7 @@
 
 #include <optional>
 
-#include "mapper/follow/track.h"
-#include "schema/tile/tracklet.h"
+#include "schema/tile/observation.h"
 
 namespace milepost {
 

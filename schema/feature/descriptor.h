@@ -1,4 +1,4 @@
-// The descriptor of a feature, and of a tracklet.
+// The descriptors of a feature, of a tracklet, and of a whole image.
 #pragma once
 
 #include <array>
@@ -10,5 +10,13 @@ inline constexpr int kDescriptorBytes = 128;
 
 // SIFT's 4 x 4 cells of 8 orientations, one byte each as OpenCV scales them.
 using Descriptor = std::array<std::uint8_t, kDescriptorBytes>;
+
+inline constexpr int kImageDescriptorValues = 64;
+
+// SURF's 4 x 4 cells of 4 values, of length 1 (schema/feature/wisurf.h); all 0 of an even image.
+using ImageDescriptor = std::array<float, kImageDescriptorValues>;
+
+// Euclidean, in [0, 2].
+double image_distance(const ImageDescriptor& a, const ImageDescriptor& b);
 
 }  // namespace milepost

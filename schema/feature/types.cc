@@ -1,5 +1,7 @@
 #include "schema/feature/types.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 namespace milepost {
@@ -55,6 +57,12 @@ Result<FeatureParameters> feature_parameters_from_json(const std::string& text) 
   }
   if (!object.empty()) return corrupt_parameters("'" + object.begin().key() + "' is unknown");
   return parameters;
+}
+
+double image_distance(const ImageDescriptor& a, const ImageDescriptor& b) {
+  double square = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(square);
 }
 
 }  // namespace milepost

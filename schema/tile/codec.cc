@@ -4,14 +4,32 @@
 #include "schema/tile/table.h"
 
 namespace milepost {
+namespace {
+
+template <class Tile>
+Result<Tile> decode(ByteView frame, Result<Tile> (*from_table)(ByteView)) {
+  const Result<Bytes> content = expand_frame(frame);
+  if (!content) return content.error();
+  return from_table(*content);
+}
+
+}  // namespace
 
 Bytes encode_tile(const TrackletTile& tile) { return compress_frame(table_from_tile(tile)); }
 
-Result<TrackletTile> decode_tile(ByteView frame) {
-  const Result<Bytes> content = expand_frame(frame);
-  if (!content) return content.error();
-  return tile_from_table(*content);
+Bytes encode_observations(const ObservationTile& tile) {
+  return compress_frame(table_from_observations(tile));
 }
+
+Bytes encode_frames(const FrameTile& tile) { return compress_frame(table_from_frames(tile)); }
+
+Result<TrackletTile> decode_tile(ByteView frame) { return decode(frame, tile_from_table); }
+
+Result<ObservationTile> decode_observations(ByteView frame) {
+  return decode(frame, observations_from_table);
+}
+
+Result<FrameTile> decode_frames(ByteView frame) { return decode(frame, frames_from_table); }
 
 Result<std::size_t> stored_frame_length(ByteView stream) { return frame_length(stream); }
 

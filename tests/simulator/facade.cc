@@ -37,14 +37,16 @@ cv::Scalar any_colour(cv::RNG& random) {
 // A canvas measured in metres from its top left corner.
 class Canvas {
  public:
-  Canvas(double width_m, double height_m, const cv::Scalar& colour)
-      : image_(texels(height_m), texels(width_m), CV_8UC3, colour),
-        width_m_(width_m),
-        height_m_(height_m) {}
+  Canvas(const WallSize& size, const cv::Scalar& colour)
+      : image_(size.texels(), CV_8UC3, colour),
+        width_m_(size.width_m),
+        height_m_(size.height_m),
+        texels_per_m_(size.texels_per_m) {}
 
   cv::Mat& image() { return image_; }
   double width_m() const { return width_m_; }
   double height_m() const { return height_m_; }
+  int texels_per_m() const { return texels_per_m_; }
 
   void fill(double left_m, double top_m, double width_m, double height_m,
             const cv::Scalar& colour) {
@@ -72,14 +74,12 @@ class Canvas {
   }
 
  private:
-  static int place(double metres) {
-    return static_cast<int>(std::lround(metres * kFacadeTexelsPerM));
-  }
-  static int texels(double metres) { return std::max(1, place(metres)); }
+  int place(double metres) const { return static_cast<int>(std::lround(metres * texels_per_m_)); }
 
   cv::Mat image_;
   double width_m_;
   double height_m_;
+  int texels_per_m_;
 };
 
 // Blocks in courses, every second course shifted by half a block.
@@ -270,17 +270,17 @@ void paint_posters(Canvas& canvas, double left, double width, cv::RNG& random) {
 
 // One stretch of the ground floor: a door, a shop or a window with posters beside.
 void paint_ground_floor_bay(Canvas& canvas, double left, double width, const WindowStyle& style,
-                            cv::RNG& random) {
-  switch (random.uniform(0, 4)) {
+                            bool has_shops, cv::RNG& random) {
+  switch (random.uniform(0, has_shops ? 4 : 2)) {
     case 0:
       paint_door(canvas, left + width / 2 - 0.55, 1.1, random);
       break;
-    case 1:
     case 2:
+    case 3:
       paint_shop(canvas, left + 0.2, width - 0.4, random);
       break;
     default:
-      paint_posters(canvas, left, width, random);
+      if (has_shops) paint_posters(canvas, left, width, random);
       paint_window(canvas, left + (width - style.width_m) / 2, canvas.height_m() - 2.6, style,
                    random);
       break;
@@ -317,28 +317,49 @@ void paint_upper_floors(Canvas& canvas, double ground_floor_m, double floor_m, i
 // Rain that ran down from sills and soot near the ground.
 void paint_dirt(Canvas& canvas, cv::RNG& random) {
   cv::Mat& image = canvas.image();
+  const int per_m = canvas.texels_per_m();
   cv::Mat dirt(image.size(), CV_8UC3, cv::Scalar::all(255));
   for (int streak = 0; streak < static_cast<int>(canvas.width_m() * 4); ++streak) {
     const int x = random.uniform(0, image.cols);
     const int y = random.uniform(0, image.rows);
-    const int length = random.uniform(20, 160);
-    cv::line(dirt, {x, y}, {x + random.uniform(-4, 5), y + length},
-             cv::Scalar::all(random.uniform(150, 235)), random.uniform(2, 10));
+    const int length = static_cast<int>(random.uniform(0.3, 2.4) * per_m);
+    const int lean = static_cast<int>(random.uniform(-0.07, 0.07) * per_m);
+    const int width = std::max(1, static_cast<int>(random.uniform(0.03, 0.14) * per_m));
+    cv::line(dirt, {x, y}, {x + lean, y + length}, cv::Scalar::all(random.uniform(185, 245)),
+             width);
   }
-  cv::GaussianBlur(dirt, dirt, {}, 3);
+  cv::GaussianBlur(dirt, dirt, {}, std::max(0.5, per_m * 0.05));
   cv::multiply(image, dirt, image, 1.0 / 255);
-  const int soot = std::min(image.rows, kFacadeTexelsPerM);
+  const int soot = std::min(image.rows, per_m);
   for (int row = 0; row < soot; ++row) {
     cv::Mat line = image.row(image.rows - soot + row);
-    line *= 1.0 - 0.35 * row / soot;
+    line *= 1.0 - 0.3 * row / soot;
   }
+}
+
+// What firewalls are let for.
+void paint_advertisement(Canvas& canvas, double left, double top, double width, double height,
+                         cv::RNG& random) {
+  canvas.fill(left - 0.08, top - 0.08, width + 0.16, height + 0.16, {60, 62, 64});
+  canvas.fill(left, top, width, height, any_colour(random));
+  for (int shape = 0; shape < 7; ++shape) {
+    const cv::Scalar colour = any_colour(random);
+    const double x = left + width * random.uniform(0.1, 0.9);
+    const double y = top + height * random.uniform(0.15, 0.7);
+    const double room = std::min({x - left, left + width - x, y - top, top + height - y});
+    canvas.disc(x, y, room * random.uniform(0.3, 0.95), colour);
+  }
+  canvas.fill(left, top + height * 0.72, width, height * 0.28, {222, 226, 228});
+  canvas.write(any_of(kSignTexts, random), left + width * 0.08, top + height * 0.94, width * 0.8,
+               height * 0.18, any_of(kPaintColours, random));
 }
 
 }  // namespace
 
-cv::Mat paint_facade(double width_m, double height_m, cv::RNG& random) {
+cv::Mat paint_facade(const WallSize& size, bool has_shops, cv::RNG& random) {
+  const auto [width_m, height_m, texels_per_m] = size;
   const cv::Scalar colour = varied(any_of(kWallColours, random), 18, random);
-  Canvas canvas(width_m, height_m, colour);
+  Canvas canvas(size, colour);
   paint_wall(canvas, colour, random);
   const WindowStyle style = any_window_style(random);
   const double floor_m = random.uniform(2.9, 3.4);
@@ -348,7 +369,7 @@ cv::Mat paint_facade(double width_m, double height_m, cv::RNG& random) {
   paint_upper_floors(canvas, 3.6, floor_m, columns, style, random);
   const int bays = std::max(1, static_cast<int>(width_m / 3.4));
   for (int bay = 0; bay < bays; ++bay) {
-    paint_ground_floor_bay(canvas, width_m * bay / bays, width_m / bays, style, random);
+    paint_ground_floor_bay(canvas, width_m * bay / bays, width_m / bays, style, has_shops, random);
   }
   paint_drainpipe(canvas, random.uniform(0, 2) == 0 ? 0.1 : width_m - 0.3, random);
   paint_moulding(canvas, 0, 0.35, style.trim);
@@ -357,22 +378,45 @@ cv::Mat paint_facade(double width_m, double height_m, cv::RNG& random) {
   return canvas.image();
 }
 
-cv::Mat paint_side_wall(double width_m, double height_m, cv::RNG& random) {
+cv::Mat paint_oriel(const WallSize& size, cv::RNG& random) {
   const cv::Scalar colour = varied(any_of(kWallColours, random), 18, random);
-  Canvas canvas(width_m, height_m, colour);
+  Canvas canvas(size, colour);
   paint_wall(canvas, colour, random);
-  const WindowStyle style = any_window_style(random);
-  for (double base = height_m - 3.6; base > 3; base -= 3.1) {
-    if (random.uniform(0, 2) == 0) {
-      paint_window(canvas, random.uniform(0.8, width_m - 2.4), base - 2, style, random);
-    }
-  }
+  WindowStyle style = any_window_style(random);
+  style.has_shutters = false;
+  const int columns = std::max(1, static_cast<int>(size.width_m / 1.9));
+  paint_upper_floors(canvas, 0, 3.1, columns, style, random);
   paint_dirt(canvas, random);
   return canvas.image();
 }
 
-cv::Mat paint_garden_wall(double width_m, double height_m, cv::RNG& random) {
-  Canvas canvas(width_m, height_m, {0, 0, 0});
+cv::Mat paint_side_wall(const WallSize& size, cv::RNG& random) {
+  const auto [width_m, height_m, texels_per_m] = size;
+  const cv::Scalar colour = varied(any_of(kWallColours, random), 18, random);
+  Canvas canvas(size, colour);
+  paint_wall(canvas, colour, random);
+  const WindowStyle style = any_window_style(random);
+  const int columns = static_cast<int>(width_m / 2.7);
+  for (double base = height_m - 0.6; base > 3; base -= 3.1) {
+    for (int column = 0; column < columns; ++column) {
+      if (random.uniform(0, 5) < 2) continue;
+      paint_window(canvas, width_m * (column + 0.5) / columns - style.width_m / 2,
+                   base - 0.6 - style.height_m, style, random);
+    }
+  }
+  if (width_m > 6 && height_m > 7 && random.uniform(0, 4) == 0) {
+    const double wide_m = random.uniform(2.6, 4.2);
+    paint_advertisement(canvas, random.uniform(0.6, width_m - wide_m - 0.6),
+                        height_m - random.uniform(4.6, 6.2), wide_m, wide_m * 0.75, random);
+  }
+  if (random.uniform(0, 2) == 0) paint_drainpipe(canvas, width_m - 0.4, random);
+  paint_dirt(canvas, random);
+  return canvas.image();
+}
+
+cv::Mat paint_garden_wall(const WallSize& size, cv::RNG& random) {
+  const auto [width_m, height_m, texels_per_m] = size;
+  Canvas canvas(size, {0, 0, 0});
   paint_blocks(canvas, 0.5, 0.22, varied({115, 135, 165}, 30, random), 30, random);
   canvas.fill(0, 0, width_m, 0.14, {160, 165, 165});
   if (random.uniform(0, 2) == 0) paint_posters(canvas, 0, width_m, random);
@@ -382,7 +426,7 @@ cv::Mat paint_garden_wall(double width_m, double height_m, cv::RNG& random) {
 }
 
 cv::Mat paint_traffic_sign(double side_m, cv::RNG& random) {
-  Canvas canvas(side_m, side_m, {225, 228, 228});
+  Canvas canvas({side_m, side_m, kNearTexelsPerM}, {225, 228, 228});
   const double middle = side_m / 2;
   const cv::Scalar rim =
       random.uniform(0, 2) == 0 ? cv::Scalar(40, 30, 190) : cv::Scalar(160, 80, 20);
@@ -393,8 +437,9 @@ cv::Mat paint_traffic_sign(double side_m, cv::RNG& random) {
   return canvas.image();
 }
 
-cv::Mat paint_pole(double width_m, double height_m, cv::RNG& random) {
-  Canvas canvas(width_m, height_m, varied({105, 110, 105}, 25, random));
+cv::Mat paint_pole(const WallSize& size, cv::RNG& random) {
+  const auto [width_m, height_m, texels_per_m] = size;
+  Canvas canvas(size, varied({105, 110, 105}, 25, random));
   for (int sticker = 0; sticker < 3; ++sticker) {
     const double y = height_m - random.uniform(0.6, std::min(2.2, height_m));
     const cv::Scalar any = any_colour(random);

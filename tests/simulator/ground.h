@@ -1,4 +1,5 @@
-// The ground of a simulated street: asphalt with markings, kerbs and pavements.
+// What the ground of a town looks like from above: roads with markings, kerbs, pavements, yards,
+// grass.
 #pragma once
 
 #include <cstdint>
@@ -6,41 +7,52 @@
 
 #include <opencv2/core.hpp>
 
-#include "tests/simulator/centreline.h"
+#include "tests/simulator/network.h"
 
 namespace milepost::simulator {
 
-inline constexpr double kRoadHalfWidthM = 3.5;
-inline constexpr double kPavementWidthM = 2.5;
-
-// Colours of the plane, by place. Immutable, so safe to share between threads.
+// Colours of the ground by place. Immutable, so safe to share between threads.
 class Ground {
  public:
-  // The markings' extras (manholes, repairs, a crossing) lie between the two alongs.
-  Ground(Centreline line, double from_m, double to_m, std::uint64_t seed);
+  Ground(const Network& network, std::uint64_t seed);
 
-  // The ground's picture of a square whose north-west corner and side are given, north up.
+  // The picture of a square whose north-west corner and side are given, north up.
   cv::Mat paint(const cv::Vec2d& north_west, double side_m, int texels_per_m) const;
 
  private:
   struct Repair {
-    double along_m, lateral_m, length_m, width_m;
+    RoadPlace place;
+    double length_m, width_m;
     float shade;
   };
-  struct Manhole {
-    double along_m, lateral_m;
+  // What lies on one road.
+  struct Fittings {
+    std::vector<Repair> repairs;
+    std::vector<RoadPlace> manholes;
+    std::vector<double> crossings;   // where zebra crossings begin
+    std::vector<RoadPlace> arrows;   // their tails; lateral tells the lane
+    std::vector<double> stop_lines;  // signed by the side of the road: + right, - left
+    std::vector<double> stop_alongs;
+  };
+  // A road near a place, as seen from the place.
+  struct Near {
+    std::size_t road;
+    RoadPlace place;
+    double beyond_edge_m;  // negative on the carriageway
   };
 
-  cv::Vec3f colour_at(const cv::Vec2d& position) const;
-  cv::Vec3f road_colour(const StreetPlace& place, float grain) const;
-  cv::Vec3f pavement_colour(const StreetPlace& place, float grain) const;
-  bool is_marking(const StreetPlace& place) const;
+  cv::Vec3f colour_at(const cv::Vec2d& position, const std::vector<std::size_t>& roads) const;
+  // `others_m` and `beyond_m`: to the edges of the other roads, and of all with rounded corners.
+  cv::Vec3f road_colour(const Near& near, double others_m, double beyond_m,
+                        const cv::Vec2d& position, float grain) const;
+  cv::Vec3f pavement_colour(const Near& near, double beyond_m, float grain) const;
+  cv::Vec3f yard_colour(const cv::Vec2d& position, Frontage frontage, double beyond_m,
+                        float grain) const;
+  bool is_marking(const Near& near, double others_m) const;
 
-  Centreline line_;
+  const Network network_;
   std::uint64_t seed_;
-  double crossing_m_ = 0;  // where the zebra crossing begins
-  std::vector<Repair> repairs_;
-  std::vector<Manhole> manholes_;
+  std::vector<Fittings> fittings_;
 };
 
 }  // namespace milepost::simulator

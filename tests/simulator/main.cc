@@ -1,76 +1,211 @@
-// milepost-simulator: makes up a street and records drives along it.
-#include <unistd.h>
-
+// milepost-simulator: makes up a town and records drives and an orthoimage of it.
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "schema/command/command.h"
+#include "tests/simulator/aerial.h"
 #include "tests/simulator/record.h"
-#include "tests/simulator/street.h"
+#include "tests/simulator/runs.h"
+#include "tests/simulator/town.h"
 
 namespace {
 
 using namespace milepost;
 using namespace milepost::simulator;
 
-constexpr int kWrongCall = 2;
+constexpr const char* kProgram = "milepost-simulator";
+
+constexpr const char* kDescription =
+    "Makes up a town from a seed and drives through it: roads with junctions, a hill and a\n"
+    "roundabout, houses, trees, traffic, sun and shadows. Writes drive folders, an orthoimage and\n"
+    "the true outlines of the houses. The same seed and options give the same bytes.\n"
+    "\n"
+    "  milepost-simulator --out drives                      every drive of the town's three "
+    "routes\n"
+    "  milepost-simulator --out drives --route town-loop    one route: its map and query drives\n"
+    "  milepost-simulator --out drives --route street --length-m 60     a short street, quickly\n"
+    "  milepost-simulator --ortho town.tif --walls town.geojson         the town from the air\n"
+    "\n"
+    "A route NAME gives drives NAME-map (a frame each 2 m) and NAME-query...; --list names them.";
 
 struct Options {
   std::string out;
-  double length_m = 120;
+  std::vector<std::string> routes;
+  std::vector<std::string> drives;
+  double length_m = 10000;
   std::uint64_t seed = 1;
-  bool query = false;
+  std::vector<int> size_px = {600, 500};
+  std::vector<double> view_deg = {80, 64};
+  double position_noise_m = 0;
+  std::string ortho;
+  std::string walls;
+  int threads = 0;
+  bool list = false;
 };
 
-Progress progress_of(const std::string& name) {
-  if (::isatty(STDERR_FILENO) == 0) return {};
-  return [name](std::size_t index, std::size_t count) {
-    std::fprintf(stderr, "\r%s: frame %zu of %zu", name.c_str(), index + 1, count);
-    if (index + 1 == count) std::fputc('\n', stderr);
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--out", options.out, "Folder for the drives; made if need be")
+      ->option_text("DIR");
+  app.add_option("--route", options.routes, "Only the drives of these routes")
+      ->option_text("NAME...");
+  app.add_option("--drive", options.drives, "Only these drives")->option_text("NAME...");
+  app.add_flag("--list", options.list, "List routes and drives, and write nothing");
+  app.add_option("--length-m", options.length_m, "At most this much of each route")
+      ->check(CLI::Range(10.0, 10000.0))
+      ->option_text("M");
+  app.add_option("--seed", options.seed, "Seed of the town and of all noise [1]")->option_text("N");
+  app.add_option("--camera-px", options.size_px, "Width and height of the frames [600 500]")
+      ->expected(2)
+      ->check(CLI::Range(16, 8192))
+      ->option_text("W H");
+  app.add_option("--view-deg", options.view_deg, "Horizontal and vertical angle of view [80 64]")
+      ->expected(2)
+      ->check(CLI::Range(5.0, 150.0))
+      ->option_text("H V");
+  app.add_option("--position-noise-m", options.position_noise_m,
+                 "Standard deviation, on each axis, of the map drives' positions [0]")
+      ->check(CLI::Range(0.0, 20.0))
+      ->option_text("M");
+  app.add_option("--ortho", options.ortho, "GeoTIFF of the town, 10 cm a pixel")
+      ->option_text("FILE");
+  app.add_option("--walls", options.walls, "GeoJSON of the houses' outlines")->option_text("FILE");
+  app.add_option("--threads", options.threads, "Threads; the result does not depend on it [all]")
+      ->check(CLI::Range(1, 256))
+      ->option_text("N");
+}
+
+Camera camera_of(const Options& options) {
+  const auto focal = [](int pixels, double view_deg) {
+    return pixels / 2.0 / std::tan(view_deg * CV_PI / 360);
+  };
+  const int width = options.size_px[0];
+  const int height = options.size_px[1];
+  const bool is_paper =
+      width == 600 && height == 500 && options.view_deg[0] == 80 && options.view_deg[1] == 64;
+  if (is_paper) return kPaperCamera;
+  return {width,
+          height,
+          focal(width, options.view_deg[0]),
+          focal(height, options.view_deg[1]),
+          width / 2.0,
+          height / 2.0};
+}
+
+template <class T>
+bool holds(const std::vector<T>& values, const T& value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+// The runs that are asked for. Errors: invalid_input for a name that is none.
+Result<std::vector<RunPlan>> chosen_runs(const Options& options, const std::vector<RunPlan>& all) {
+  for (const auto& [names, member, what] : {std::tuple{&options.routes, &RunPlan::route, "route"},
+                                            std::tuple{&options.drives, &RunPlan::name, "drive"}}) {
+    for (const std::string& name : *names) {
+      const bool is_known =
+          std::any_of(all.begin(), all.end(),
+                      [&, member = member](const RunPlan& run) { return run.*member == name; });
+      if (!is_known) {
+        return Error{ErrorCode::invalid_input, std::string("--") + what,
+                     "there is no " + std::string(what) + " '" + name + "'",
+                     "choose one that --list names"};
+      }
+    }
+  }
+  std::vector<RunPlan> runs;
+  const bool is_any = options.routes.empty() && options.drives.empty();
+  for (RunPlan run : all) {
+    const bool is_chosen =
+        is_any ? is_driven_by_default(run.route)
+               : holds(options.routes, run.route) || holds(options.drives, run.name);
+    if (!is_chosen) continue;
+    run.camera = camera_of(options);
+    if (run.spacing_m > 0) run.position_noise_m = options.position_noise_m;
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+Progress progress_on(ProgressLine& line, const std::string& name, const std::string& unit) {
+  return [&line, name, unit](std::size_t done, std::size_t count) {
+    line.show(name + ": " + unit + " " + std::to_string(done) + " of " + std::to_string(count));
+    return !stop_requested();
   };
 }
 
-Status record_all(const Options& options) {
-  StreetPlan plan;
-  plan.length_m = options.length_m;
-  plan.seed = options.seed;
-  const Street street = make_street(plan);
-  std::vector<RunPlan> runs = {map_run(plan)};
-  if (options.query) runs.push_back(query_run(plan));
+Status record_all(const Options& options, const std::vector<RunPlan>& runs, int threads) {
+  const Town town = make_town(options.seed);
+  ProgressLine line;
   for (const RunPlan& run : runs) {
-    const Status status =
-        record(street, run, std::filesystem::path(options.out) / run.name, progress_of(run.name));
+    const Lighting lighting = light_town(town, run.light);
+    const Status status = record(town, lighting, run, std::filesystem::path(options.out) / run.name,
+                                 threads, progress_on(line, run.name, "frame"));
     if (!status) return status;
   }
   return ok_status();
+}
+
+Status photograph(const Options& options, int threads) {
+  if (options.ortho.empty() && options.walls.empty()) return ok_status();
+  const Town town = make_town(options.seed, GroundDetail::aerial);
+  if (!options.walls.empty()) {
+    if (const Status status = write_walls(town, options.walls); !status) return status;
+  }
+  if (options.ortho.empty()) return ok_status();
+  ProgressLine line;
+  return write_orthoimage(town, light_town(town, morning_light()), ortho_of(town.network),
+                          options.ortho, threads, progress_on(line, options.ortho, "row"));
+}
+
+void list(const std::vector<RunPlan>& runs) {
+  for (const RunPlan& run : runs) {
+    std::cout << run.route << "  " << run.name << "  "
+              << std::lround(run.motion.to_m - run.motion.from_m) << " m: " << run.says << "\n";
+  }
+}
+
+int run(const Options& options) {
+  const auto all = make_runs(make_network(options.seed), options.seed, options.length_m);
+  if (options.list) {
+    list(all);
+    return kExitDone;
+  }
+  if (options.out.empty() && options.ortho.empty() && options.walls.empty()) {
+    std::cerr << kProgram << ": --out, --ortho or --walls is required; see '" << kProgram
+              << " --help'\n";
+    return kExitWrongCall;
+  }
+  const auto runs = chosen_runs(options, all);
+  if (!runs) {
+    fail(kProgram, runs.error());
+    return kExitWrongCall;
+  }
+  cv::setNumThreads(1);  // one picture a thread
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0 ? options.threads : cores;
+  catch_stop_signals();
+  if (!options.out.empty()) {
+    if (const Status status = record_all(options, *runs, threads); !status) {
+      return fail(kProgram, status.error());
+    }
+  }
+  if (const Status status = photograph(options, threads); !status) {
+    return fail(kProgram, status.error());
+  }
+  return kExitDone;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app(
-      "Makes up a street from a seed and records drives along it, in the drive format: a mapping\n"
-      "drive in DIR/street-map and, with --query, a second drive on another line in\n"
-      "DIR/street-query. The same seed and length give the same bytes.");
-  app.set_version_flag("--version", MILEPOST_VERSION);
-  app.add_option("--out", options.out, "Folder for the drives; made if need be")->required();
-  app.add_option("--length-m", options.length_m, "Length of the drives in metres")
-      ->check(CLI::Range(10.0, 5000.0))
-      ->capture_default_str();
-  app.add_option("--seed", options.seed, "Seed of the street and of all noise")
-      ->capture_default_str();
-  app.add_flag("--query", options.query, "Record the second drive, too");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongCall;
-  }
-  const Status status = record_all(options);
-  if (status.ok()) return 0;
-  std::cerr << "milepost-simulator: " << status.error().line() << "\n";
-  return 1;
+  CLI::App app(kDescription, kProgram);
+  add_options(app, options);
+  if (const auto exit_code = parse_words(app, {argv + 1, argv + argc})) return *exit_code;
+  return run(options);
 }

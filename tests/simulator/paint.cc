@@ -7,15 +7,24 @@
 
 namespace milepost::simulator {
 
-// The finalizer of SplitMix64, over the point and the seed.
-float lattice_noise(std::int64_t x, std::int64_t y, std::uint64_t seed) {
-  std::uint64_t bits = seed + static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15ULL +
-                       static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fULL;
+namespace {
+
+// The finalizer of SplitMix64.
+std::uint64_t mixed(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
   bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
-  bits ^= bits >> 31;
+  return bits ^ (bits >> 31);
+}
+
+}  // namespace
+
+float lattice_noise(std::int64_t x, std::int64_t y, std::uint64_t seed) {
+  const std::uint64_t bits = mixed(seed + static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15ULL +
+                                   static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fULL);
   return static_cast<float>(bits >> 40) / static_cast<float>(1 << 24);
 }
+
+cv::RNG seeded(std::uint64_t seed) { return {mixed(seed + 0x9e3779b97f4a7c15ULL)}; }
 
 float smooth_noise(double x, double y, std::uint64_t seed) {
   const double left = std::floor(x);

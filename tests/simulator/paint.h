@@ -13,6 +13,9 @@ float lattice_noise(std::int64_t x, std::int64_t y, std::uint64_t seed);
 // Smooth noise in [0, 1) whose bumps are one unit wide.
 float smooth_noise(double x, double y, std::uint64_t seed);
 
+// A generator whose first numbers tell nothing of how near its seed is to another's.
+cv::RNG seeded(std::uint64_t seed);
+
 // `colour` brightened by `factor`.
 cv::Scalar shaded(const cv::Scalar& colour, double factor);
 

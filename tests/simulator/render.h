@@ -1,23 +1,52 @@
-// Pictures of a scene through a pinhole camera.
+// Pictures of a scene: through a pinhole camera, and from above.
 #pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "schema/drive/drive.h"
+#include "tests/simulator/light.h"
+#include "tests/simulator/projection.h"
 #include "tests/simulator/scene.h"
+#include "tests/simulator/shadow.h"
+#include "tests/simulator/sky.h"
 
 namespace milepost::simulator {
 
-// Where a camera stands and looks.
-struct Pose {
-  Point position;
-  double heading_deg = 0;  // clockwise from north
-  double pitch_deg = 0;    // upwards
-  double roll_deg = 0;     // clockwise, as seen from behind the camera
+// An upright box that moves: it shades what lies behind it, seen from the sun.
+struct Shade {
+  Point centre;       // of its floor
+  cv::Vec2d forward;  // a unit vector east, north
+  double half_length_m = 0;
+  double half_width_m = 0;
+  double height_m = 0;
+};
+
+// How a scene is lit. Without a sun each texture keeps its own colours.
+struct Lighting {
+  Light light;
+  std::shared_ptr<const Sky> sky;
+  std::shared_ptr<const ShadowMap> shadows;
+  std::shared_ptr<const SkyView> sky_view;
+  std::function<double(const cv::Vec2d&)> ground_m;  // height of the ground at a place
+};
+
+Lighting even_lighting();
+
+// What moves, at one instant.
+struct Moving {
+  std::vector<Surface> surfaces;
+  std::vector<Shade> shades;
 };
 
 // The 8-bit BGR picture; a function of its arguments alone. Each pixel is the mean of what it
 // covers: edges from four samples, textures filtered by the pixel's footprint.
-cv::Mat render(const Scene& scene, const Camera& camera, const Pose& pose);
+cv::Mat render(const Scene& scene, const Lighting& lighting, const Projection& projection,
+               const Moving& moving = {});
+cv::Mat render(const Scene& scene, const Lighting& lighting, const Camera& camera, const Pose& pose,
+               const Moving& moving = {});
 
 }  // namespace milepost::simulator

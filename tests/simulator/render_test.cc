@@ -10,8 +10,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/simulator/facade.h"
-#include "tests/simulator/record.h"
-#include "tests/simulator/street.h"
+#include "tests/simulator/runs.h"
+#include "tests/simulator/town.h"
 
 namespace milepost::simulator {
 namespace {
@@ -19,17 +19,14 @@ namespace {
 // A wall that faces south, its middle at the eye's height above the origin's north.
 Scene wall_ahead(double north_m, double width_m, double height_m, const cv::Mat& image) {
   Scene scene;
-  const cv::Vec2f texels_per_m(static_cast<float>(image.cols / width_m),
-                               static_cast<float>(image.rows / height_m));
-  scene.surfaces.push_back({{-width_m / 2, north_m, height_m / 2},
-                            {1, 0, 0},
-                            {0, 0, -1},
-                            width_m,
-                            height_m,
-                            std::make_shared<Texture>(image),
-                            texels_per_m,
-                            1});
+  scene.surfaces.push_back(rectangle({-width_m / 2, north_m, height_m / 2}, {1, 0, 0}, {0, 0, -1},
+                                     width_m, height_m, std::make_shared<Texture>(image),
+                                     image.size()));
   return scene;
+}
+
+cv::Mat picture_of(const Scene& scene, const Pose& pose) {
+  return render(scene, even_lighting(), kPaperCamera, pose);
 }
 
 cv::Mat gray(const cv::Mat& picture) {
@@ -45,7 +42,7 @@ TEST(Render, ShowsAPointWhereThePinholeSays) {
   const Scene scene = wall_ahead(20, 20, 20, image);
   for (const double roll_deg : {0.0, 20.0}) {
     const Pose pose{{1, 5, 0.5}, -3, 4, roll_deg};
-    const cv::Mat picture = gray(render(scene, kPaperCamera, pose));
+    const cv::Mat picture = gray(picture_of(scene, pose));
     const cv::Rect region(300, 80, 170, 200);  // holds the square, and nothing but the wall
     const cv::Moments moments = cv::moments(picture(region));
     const cv::Point2d seen(moments.m10 / moments.m00 + region.x,
@@ -72,7 +69,7 @@ TEST(Render, NearHidesFar) {
   for (const bool near_first : {false, true}) {
     std::vector<Surface> surfaces = {scene.surfaces[0], near.surfaces[0]};
     if (near_first) std::swap(surfaces[0], surfaces[1]);
-    const cv::Mat picture = render({surfaces}, kPaperCamera, {});
+    const cv::Mat picture = picture_of({surfaces}, {});
     EXPECT_EQ(picture.at<cv::Vec3b>(250, 300), near_colour);
     EXPECT_EQ(picture.at<cv::Vec3b>(250, 500), cv::Vec3b(10, 20, 200));
   }
@@ -80,7 +77,7 @@ TEST(Render, NearHidesFar) {
 
 TEST(Render, HidesWhatLiesBehindTheCamera) {
   const Scene scene = wall_ahead(-10, 100, 100, cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(0)));
-  const cv::Mat picture = render(scene, kPaperCamera, {});
+  const cv::Mat picture = picture_of(scene, {});
   double darkest = 0;
   cv::minMaxLoc(gray(picture), &darkest);
   EXPECT_GT(darkest, 100);  // sky everywhere
@@ -89,15 +86,10 @@ TEST(Render, HidesWhatLiesBehindTheCamera) {
 TEST(Render, ShowsGroundFromUnderTheCameraOn) {
   const cv::Vec3b green(20, 200, 10);
   Scene scene;
-  scene.surfaces.push_back({{-200, 400, 0},
-                            {1, 0, 0},
-                            {0, -1, 0},
-                            400,
-                            800,
-                            std::make_shared<Texture>(cv::Mat(8, 8, CV_8UC3, green)),
-                            {0.02F, 0.01F},
-                            1});
-  const cv::Mat picture = render(scene, kPaperCamera, {{0, 0, 1.5}});
+  const cv::Mat image(8, 8, CV_8UC3, green);
+  scene.surfaces.push_back(rectangle({-200, 400, 0}, {1, 0, 0}, {0, -1, 0}, 400, 800,
+                                     std::make_shared<Texture>(image), image.size()));
+  const cv::Mat picture = picture_of(scene, {{0, 0, 1.5}});
   for (const int y : {260, 300, 499}) {
     for (const int x : {0, 300, 599})
       EXPECT_EQ(picture.at<cv::Vec3b>(y, x), green) << x << "," << y;
@@ -117,7 +109,7 @@ TEST(Render, DetailFinerThanAPixelFades) {
   for (const double heading_deg : {0.0, 30.0}) {
     // Seen straight, and past at a slant from beside the wall's edge.
     const Point eye = heading_deg == 0 ? Point(0, 0, 0) : Point(-12, 22, 0);
-    const cv::Mat picture = gray(render(scene, kPaperCamera, {eye, heading_deg}));
+    const cv::Mat picture = gray(picture_of(scene, {eye, heading_deg}));
     const double x = heading_deg == 0 ? 300 : 300 + 357.5 * std::tan((56.31 - 30) * CV_PI / 180);
     const cv::Rect middle(static_cast<int>(x) - 20, 230, 40, 40);
     cv::meanStdDev(picture(middle), mean, deviation);
@@ -131,7 +123,7 @@ TEST(Render, DetailFinerThanAPixelFades) {
 constexpr double kWallM = 40;  // north
 
 cv::Mat picture_at_depth(const Scene& scene, double depth_m) {
-  return gray(render(scene, kPaperCamera, {{0, kWallM - depth_m, 0}}));
+  return gray(picture_of(scene, {{0, kWallM - depth_m, 0}}));
 }
 
 TEST(Render, ADiscsFeatureScaleGrowsAsOneOverDepth) {
@@ -179,7 +171,7 @@ std::vector<cv::DMatch> distinct_matches(const Features& query, const Features& 
 
 TEST(Render, AFacadesFeatureScalesGrowAsOneOverDepth) {
   cv::RNG random(5);
-  const Scene scene = wall_ahead(kWallM, 14, 10, paint_facade(14, 10, random));
+  const Scene scene = wall_ahead(kWallM, 14, 10, paint_facade({14, 10}, true, random));
   constexpr double kNearestM = 10;
   const Features nearest = features_of(picture_at_depth(scene, kNearestM));
   const cv::Point2f centre(300, 250);
@@ -200,20 +192,51 @@ TEST(Render, AFacadesFeatureScalesGrowAsOneOverDepth) {
   }
 }
 
-TEST(Street, GivesSeveralHundredFeaturesThatMatchFromFrameToFrame) {
-  StreetPlan plan;
-  plan.length_m = 10;
-  plan.beyond_m = 40;
-  const Street street = make_street(plan);
+TEST(Town, GivesSeveralHundredFeaturesThatMatchFromFrameToFrame) {
+  const Town town = make_town(1);
+  const Lighting lighting = light_town(town, noon_light());
+  const Path& path = town.network.route("town-main")->path;
   const auto picture_at = [&](double along_m) {
-    const cv::Vec2d place = street.line.position_at({along_m, 1.75});
-    return gray(render(street.scene, kPaperCamera,
-                       {{place[0], place[1], 1.5}, street.line.heading_deg_at(along_m)}));
+    const cv::Vec2d at = path.position_at({along_m, kLaneM});
+    const double up_m = town.network.terrain.height_m(at) + 1.5;
+    const Pose pose{{at[0], at[1], up_m}, path.heading_rad_at(along_m) * 180 / CV_PI};
+    return gray(render(town.scene, lighting, kPaperCamera, pose));
   };
-  const Features first = features_of(picture_at(2));
-  const Features second = features_of(picture_at(4));
+  const Features first = features_of(picture_at(60));
+  const Features second = features_of(picture_at(62));
   EXPECT_GT(first.keypoints.size(), 700U);
-  EXPECT_GT(distinct_matches(first, second).size(), 250U);
+  EXPECT_GT(distinct_matches(first, second).size(), 200U);
+}
+
+TEST(Render, CutOutsShowWhatLiesBehind) {
+  cv::Mat image(64, 64, CV_8UC4, cv::Scalar(10, 20, 200, 255));
+  image(cv::Rect(0, 0, 32, 64)).setTo(cv::Scalar(10, 20, 200, 0));
+  Scene scene = wall_ahead(10, 4, 4, image);
+  scene.surfaces[0].is_cut_out = true;
+  const cv::Vec3b behind(200, 20, 10);
+  scene.surfaces.push_back(wall_ahead(20, 40, 40, cv::Mat(8, 8, CV_8UC3, behind)).surfaces[0]);
+  const cv::Mat picture = picture_of(scene, {});
+  EXPECT_EQ(picture.at<cv::Vec3b>(250, 270), behind);
+  EXPECT_EQ(picture.at<cv::Vec3b>(250, 330), cv::Vec3b(10, 20, 200));
+}
+
+TEST(Render, AParallelProjectionKeepsSizes) {
+  cv::Mat image(100, 100, CV_8UC3, cv::Scalar::all(0));
+  cv::rectangle(image, {30, 40}, {49, 69}, cv::Scalar::all(255), -1);
+  Scene scene;  // on the ground, and again 3 m above it, 40 m further east
+  for (const auto& [west, up] : {std::pair{0.0, 0.0}, std::pair{40.0, 3.0}}) {
+    scene.surfaces.push_back(rectangle({west, 10, up}, {1, 0, 0}, {0, -1, 0}, 10, 10,
+                                       std::make_shared<Texture>(image), image.size()));
+  }
+  const Projection down =
+      Projection::parallel({0.1, 9.9, 50}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, 0.2, {260, 50});
+  const cv::Mat picture = gray(render(scene, even_lighting(), down));
+  for (const int west_px : {0, 200}) {
+    const cv::Moments moments = cv::moments(picture(cv::Rect(west_px, 0, 50, 50)));
+    EXPECT_NEAR(moments.m00 / 255, 10 * 15, 1);
+    EXPECT_NEAR(moments.m10 / moments.m00, 15 + 4.5, 0.05);
+    EXPECT_NEAR(moments.m01 / moments.m00, 20 + 7, 0.05);
+  }
 }
 
 }  // namespace

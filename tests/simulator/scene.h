@@ -1,6 +1,7 @@
-// What a simulated camera looks at: flat textured surfaces in a local frame of metres, and a sky.
+// What a simulated camera looks at: flat textured surfaces in a local frame of metres.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -13,21 +14,40 @@ namespace milepost::simulator {
 // Metres east, north and up of the drive's origin.
 using Point = cv::Vec3d;
 
-// A rectangle, seen from both sides. The texture's top left corner lies at `top_left`; its columns
-// run along `across` and its rows along `down`.
+// How a texture lies on a plane: the texel at a point is ((point - origin) . per_m) in u and v.
+struct TextureMap {
+  Point origin;
+  Point u_per_m;
+  Point v_per_m;
+};
+
+// A convex polygon of three or four corners in one plane, seen from both sides.
 struct Surface {
-  Point top_left;
-  Point across;  // unit vector
-  Point down;    // unit vector, at a right angle to `across`
-  double width_m = 0;
-  double height_m = 0;
+  std::array<Point, 4> corners;
+  int corner_count = 4;
+  TextureMap map;
   std::shared_ptr<const Texture> texture;
-  cv::Vec2f texels_per_m;  // along `across` and `down`
-  float light = 1;         // how bright it lies in the sun
+  Point normal;             // a unit vector: how the light falls on it
+  bool is_cut_out = false;  // nothing is where the texture is transparent
+  float translucency = 0;   // share of the sun that shines through from behind
+  float openness = 1;       // share of the light of the sky that reaches it, [0, 1]
+  bool is_distant = false;  // too far out to throw or take shadows
+  Point centre;             // of a ball that holds it
+  double radius_m = 0;
 };
 
 struct Scene {
   std::vector<Surface> surfaces;
 };
+
+// A rectangle whose texture's top left corner lies at `top_left`, its columns along `across` and
+// its rows along `down` (unit vectors at a right angle); `size` is the texture's.
+Surface rectangle(const Point& top_left, const Point& across, const Point& down, double width_m,
+                  double height_m, std::shared_ptr<const Texture> texture, const cv::Size& size);
+
+// A polygon of three or four corners with a given texture map; its normal looks to the side from
+// which the corners run clockwise.
+Surface polygon(const std::vector<Point>& corners, std::shared_ptr<const Texture> texture,
+                const TextureMap& map);
 
 }  // namespace milepost::simulator

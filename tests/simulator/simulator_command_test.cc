@@ -32,20 +32,37 @@ Outcome run_simulator(const std::string& arguments) {
   return outcome;
 }
 
-TEST(SimulatorCommand, WritesBothDrivesAndSaysNothingInAPipe) {
+TEST(SimulatorCommand, WritesADriveOfEachNameAndSaysNothingInAPipe) {
   const testing::TempFolder folder;
   const Outcome outcome =
-      run_simulator("--out " + folder.path().string() + " --length-m 10 --seed 7 --query");
+      run_simulator("--out " + folder.path().string() +
+                    " --route street --length-m 10 --seed 7 --camera-px 120 100");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.output, "");
-  EXPECT_TRUE(read_drive(folder / "street-map").ok());
-  EXPECT_TRUE(read_drive(folder / "street-query").ok());
+  for (const char* name : {"street-map", "street-query"}) {
+    const Result<Drive> drive = read_drive(folder / name);
+    ASSERT_TRUE(drive.ok()) << drive.error().line();
+    EXPECT_EQ(drive->camera.width_px, 120);
+    EXPECT_NEAR(drive->camera.focal_x_px, 71.5, 0.1);
+    EXPECT_NEAR(drive->camera.focal_y_px, 80.0, 0.1);
+  }
+}
+
+TEST(SimulatorCommand, ListsEveryRouteWithItsMapAndQuery) {
+  const Outcome outcome = run_simulator("--list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* name : {"town-main-map", "town-main-query", "town-main-query-lane",
+                           "town-main-query-traffic", "town-hill-map", "town-loop-map"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(name));
+  }
 }
 
 TEST(SimulatorCommand, Teaches) {
   const Outcome outcome = run_simulator("--help");
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* option : {"--out", "--length-m", "--seed", "--query", "street-map"}) {
+  for (const char* option :
+       {"--out", "--route", "--drive", "--list", "--length-m", "--seed", "--ortho", "--walls",
+        "--position-noise-m", "--camera-px", "--view-deg", "NAME-map"}) {
     EXPECT_THAT(outcome.output, HasSubstr(option));
   }
 }
@@ -54,10 +71,13 @@ TEST(SimulatorCommand, RefusesAWrongCall) {
   EXPECT_EQ(run_simulator("").exit_code, 2);
   EXPECT_EQ(run_simulator("--out /nowhere --length-m 0").exit_code, 2);
   EXPECT_EQ(run_simulator("--out /nowhere --no-such-option").exit_code, 2);
+  const Outcome outcome = run_simulator("--out /nowhere --route nowhere");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("there is no route 'nowhere'"));
 }
 
 TEST(SimulatorCommand, NamesWhatFailedInOneLine) {
-  const Outcome outcome = run_simulator("--out /dev/null/x --length-m 10");
+  const Outcome outcome = run_simulator("--out /dev/null/x --drive street-map --length-m 10");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output,
               ::testing::MatchesRegex("milepost-simulator: /dev/null/x/street-map/frames: cannot "

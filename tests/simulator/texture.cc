@@ -3,75 +3,105 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace milepost::simulator {
 namespace {
 
-constexpr float kMaxTaps = 8;  // along a footprint's longer side
+constexpr float kMaxTaps = 6;  // along a footprint's longer side
 
-cv::Vec3f texel(const cv::Mat& image, int x, int y) { return image.at<cv::Vec3b>(y, x); }
+using cv::v_float32x4;
 
-cv::Vec3f bilinear(const cv::Mat& image, float x, float y) {
-  const auto right = static_cast<float>(image.cols - 1);
-  const auto bottom = static_cast<float>(image.rows - 1);
-  x = std::clamp(x - 0.5F, 0.0F, right);
-  y = std::clamp(y - 0.5F, 0.0F, bottom);
-  const int x0 = static_cast<int>(x);
-  const int y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, image.cols - 1);
-  const int y1 = std::min(y0 + 1, image.rows - 1);
-  const float fx = x - static_cast<float>(x0);
-  const float fy = y - static_cast<float>(y0);
-  const cv::Vec3f top = texel(image, x0, y0) * (1 - fx) + texel(image, x1, y0) * fx;
-  const cv::Vec3f low = texel(image, x0, y1) * (1 - fx) + texel(image, x1, y1) * fx;
-  return top * (1 - fy) + low * fy;
+v_float32x4 texel(const uchar* bytes) {
+  return cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(bytes)));
 }
 
-float length(const cv::Vec2f& v) { return std::hypot(v[0], v[1]); }
+// `x` and `y` in the image's own texels.
+v_float32x4 bilinear(const cv::Mat& image, float x, float y) {
+  x = std::clamp(x - 0.5F, 0.0F, static_cast<float>(image.cols - 1));
+  y = std::clamp(y - 0.5F, 0.0F, static_cast<float>(image.rows - 1));
+  const int left = static_cast<int>(x);
+  const int top = static_cast<int>(y);
+  const int step_x = left + 1 < image.cols ? 4 : 0;
+  const std::size_t step_y = top + 1 < image.rows ? image.step[0] : 0;
+  const uchar* corner = image.ptr(top) + left * 4;
+  const v_float32x4 fx = cv::v_setall_f32(x - static_cast<float>(left));
+  const v_float32x4 fy = cv::v_setall_f32(y - static_cast<float>(top));
+  const v_float32x4 a = texel(corner);
+  const v_float32x4 c = texel(corner + step_y);
+  const v_float32x4 upper = a + (texel(corner + step_x) - a) * fx;
+  const v_float32x4 lower = c + (texel(corner + step_y + step_x) - c) * fx;
+  return upper + (lower - upper) * fy;
+}
+
+template <class Levels>
+v_float32x4 trilinear(const Levels& levels, const cv::Vec2f& place, float level) {
+  const float inside = std::min(level, static_cast<float>(levels.size() - 1));
+  const auto at_level = [&](std::size_t index) {
+    const auto& of = levels[index];
+    return bilinear(of.image, place[0] * of.scale_x, place[1] * of.scale_y);
+  };
+  const auto fine = static_cast<std::size_t>(inside);
+  const float part = inside - static_cast<float>(fine);
+  const v_float32x4 first = at_level(fine);
+  if (part <= 0) return first;
+  return first + (at_level(fine + 1) - first) * cv::v_setall_f32(part);
+}
+
+float length(const cv::Vec2f& v) { return std::sqrt(v.dot(v)); }
 
 }  // namespace
 
-Texture::Texture(const cv::Mat& image) : levels_{image} {
-  while (levels_.back().cols > 1 || levels_.back().rows > 1) {
-    const cv::Mat& last = levels_.back();
-    cv::Mat half;
-    cv::resize(last, half, {(last.cols + 1) / 2, (last.rows + 1) / 2}, 0, 0, cv::INTER_AREA);
-    levels_.push_back(half);
-  }
+const std::vector<Texture::Level>& Texture::levels() const {
+  std::call_once(pyramid_->painted, [this] {
+    cv::Mat image = paint_();
+    if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2BGRA);
+    const cv::Size full = image.size();
+    std::vector<Level>& levels = pyramid_->levels;
+    while (true) {
+      levels.push_back({image, static_cast<float>(image.cols) / static_cast<float>(full.width),
+                        static_cast<float>(image.rows) / static_cast<float>(full.height)});
+      if (image.cols == 1 && image.rows == 1) break;
+      cv::Mat half;
+      cv::resize(image, half, {(image.cols + 1) / 2, (image.rows + 1) / 2}, 0, 0, cv::INTER_AREA);
+      image = half;
+    }
+  });
+  return pyramid_->levels;
 }
+
+void Texture::forget() const { pyramid_ = std::make_unique<Pyramid>(); }
 
 // Anisotropic filtering: the level fits the footprint's shorter side, and several taps stand along
 // its longer side.
-cv::Vec3f Texture::sample(const cv::Vec2f& place, const Footprint& footprint) const {
+cv::Vec4f Texture::sample(const cv::Vec2f& place, const Footprint& footprint) const {
   const float column = length(footprint.per_column);
   const float row = length(footprint.per_row);
   const cv::Vec2f along = column > row ? footprint.per_column : footprint.per_row;
   const float longer = std::max({column, row, 1e-3F});
-  const float shorter = std::max(std::min(column, row), 1e-3F);
+  const float shorter = std::max({std::min(column, row), 1.0F, longer / kMaxTaps});
   const float taps = std::clamp(std::ceil(longer / shorter), 1.0F, kMaxTaps);
   const float level = std::log2(std::max(longer / taps, 1.0F));
-  cv::Vec3f sum(0, 0, 0);
+  const auto& all = levels();
+  v_float32x4 sum = cv::v_setzero_f32();
   for (float tap = 0; tap < taps; ++tap) {
     const float offset = (tap + 0.5F) / taps - 0.5F;
-    sum += sample_between_levels(place + along * offset, level);
+    sum += trilinear(all, place + along * offset, level);
   }
-  return sum / taps;
+  cv::Vec4f mean;
+  cv::v_store(mean.val, sum * cv::v_setall_f32(1 / taps));
+  return mean;
 }
 
-cv::Vec3f Texture::sample_between_levels(const cv::Vec2f& place, float level) const {
-  const auto top = static_cast<float>(levels_.size() - 1);
-  const float inside = std::min(level, top);
-  const auto at_level = [&](std::size_t index) {
-    const cv::Mat& image = levels_[index];
-    const float scale_x = static_cast<float>(image.cols) / static_cast<float>(levels_[0].cols);
-    const float scale_y = static_cast<float>(image.rows) / static_cast<float>(levels_[0].rows);
-    return bilinear(image, place[0] * scale_x, place[1] * scale_y);
-  };
-  const auto fine = static_cast<std::size_t>(inside);
-  const float part = inside - static_cast<float>(fine);
-  if (part <= 0) return at_level(fine);
-  return at_level(fine) * (1 - part) + at_level(fine + 1) * part;
+float Texture::opacity(const cv::Vec2f& place, float level) const {
+  const auto& all = levels();
+  const auto nearest =
+      static_cast<std::size_t>(std::clamp(level, 0.0F, static_cast<float>(all.size() - 1)));
+  cv::Vec4f colour;
+  const Level& of = all[nearest];
+  cv::v_store(colour.val, bilinear(of.image, place[0] * of.scale_x, place[1] * of.scale_y));
+  return colour[3];
 }
 
 }  // namespace milepost::simulator

@@ -1,6 +1,9 @@
 // An image on a surface, filtered so that its detail fades with distance as behind a lens.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -13,19 +16,39 @@ struct Footprint {
   cv::Vec2f per_row;
 };
 
-// A pyramid of halved images. Immutable, so safe to share between threads.
+// A pyramid of halved images. Safe to share between threads: the first that samples it paints it.
 class Texture {
  public:
-  explicit Texture(const cv::Mat& image);  // 8-bit BGR, not empty
+  // Gives an 8-bit BGR or BGRA image, not empty, the same one whenever it is called.
+  using Paint = std::function<cv::Mat()>;
 
-  // The mean colour of the footprint of one pixel about (x, y), in texels from the top left corner
-  // of the top left texel; places outside take the border's colour.
-  cv::Vec3f sample(const cv::Vec2f& place, const Footprint& footprint) const;
+  explicit Texture(Paint paint) : paint_(std::move(paint)) {}
+  explicit Texture(const cv::Mat& image) : paint_([image] { return image; }) {}
+
+  // The mean blue, green, red and opacity, [0, 255], of the footprint of one pixel about (x, y), in
+  // texels from the top left corner of the top left texel; places outside take the border's colour.
+  cv::Vec4f sample(const cv::Vec2f& place, const Footprint& footprint) const;
+
+  // The opacity, [0, 255], about a place, as the mean over squares of 2^level texels.
+  float opacity(const cv::Vec2f& place, float level) const;
+
+  // Frees the pyramid; it is painted again when it is sampled. Not while others sample.
+  void forget() const;
 
  private:
-  cv::Vec3f sample_between_levels(const cv::Vec2f& place, float level) const;
+  struct Level {
+    cv::Mat image;  // CV_8UC4
+    float scale_x, scale_y;
+  };
+  struct Pyramid {
+    std::once_flag painted;
+    std::vector<Level> levels;
+  };
 
-  std::vector<cv::Mat> levels_;
+  const std::vector<Level>& levels() const;
+
+  Paint paint_;
+  mutable std::unique_ptr<Pyramid> pyramid_ = std::make_unique<Pyramid>();
 };
 
 }  // namespace milepost::simulator

@@ -9,7 +9,10 @@ FIX_COLUMNS = ["timestamp_s", "filename", "status", "segment", "along_m", "sigma
                "longitude_deg", "matches", "latency_ms"]
 SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m", "p95_error_m", "frames",
                 "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99"]
-METHODS = ["tracklet-regression", "tracklet-regression-kalman", "milepost"]
+# Every method, and a bound on its mean error in metres: those that interpolate nothing are worse.
+METHODS = {"wisurf": 5.0, "scale-only": 1.5, "tracklet-matching": 1.0, "tracklet-regression": 1.0,
+           "tracklet-regression-kalman": 1.0, "tracklet-regression-particle": 1.0,
+           "tracklet-regression-unaveraged": 1.0, "milepost": 0.5}
 STATUSES = {"initializing", "tracking", "predicted", "lost", "off-map"}
 
 
@@ -64,21 +67,55 @@ class Line(CommandTest):
                          *self.over_http(server.url))
         self.expect_done(result)
         summary = json.loads((out / "summary.json").read_text())
-        self.assertEqual([entry["method"] for entry in summary], METHODS)
+        self.assertEqual([entry["method"] for entry in summary], list(METHODS))
         frames = rows_of(self.query / "trajectory.csv")
         for entry in summary:
             self.assertLessEqual(set(SUMMARY_KEYS), set(entry))
             self.assertEqual(entry["frames"], len(frames))
             self.assertGreaterEqual(entry["localized_frames"], 0.9 * len(frames))
-            self.assertGreater(entry["map_kb_per_m"], 0.1)
-            self.assertLess(entry["mean_error_m"], 1.0)
+            self.assertGreater(entry["map_kb_per_m"], 0.02)
+            self.assertLess(entry["mean_error_m"], METHODS[entry["method"]], entry["method"])
             self.check_against_rows(entry, rows_of(out / f"fixes-{entry['method']}.csv"))
-        self.assertLess(summary[2]["mean_error_m"], summary[0]["mean_error_m"])
+        error_m = {entry["method"]: entry["mean_error_m"] for entry in summary}
+        self.assertLess(error_m["milepost"], error_m["tracklet-regression"])
+        self.assertLess(error_m["tracklet-regression"], error_m["scale-only"])
+        self.assertAlmostEqual(error_m["tracklet-regression-particle"], error_m["tracklet-regression-kalman"], delta=0.1)
         report = (out / "report.html").read_text()
         self.assertEqual(report.count("<table"), 1)
         for method in METHODS:
             self.assertIn(f"<th scope=\"row\">{method}", report)
         self.assertNotRegex(report, r"(src|href)=\"http")  # self-contained
+
+    def test_estimates(self):
+        self.build_map("--lab")
+        out = self.folder / "results"
+        methods = ["wisurf", "tracklet-matching", "tracklet-regression"]
+        self.expect_done(run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", out, "--estimates",
+                             "--method", *methods))
+        self.assertFalse((out / "estimates-wisurf.csv").exists())  # has no tracklets
+        for method in methods[1:]:
+            fixes = {row["filename"]: row for row in rows_of(out / f"fixes-{method}.csv")}
+            estimates = {}
+            for row in rows_of(out / f"estimates-{method}.csv"):
+                self.assertEqual(list(row), ["timestamp_s", "filename", "along_m", "sigma_m", "truth_along_m", "error_m",
+                                             "scale_px", "along_begin_m", "along_end_m", "r_squared"])
+                self.assertAlmostEqual(float(row["along_m"]) - float(row["truth_along_m"]), float(row["error_m"]),
+                                       delta=2e-4)
+                self.assertGreaterEqual(float(row["r_squared"]), 0.8)
+                estimates.setdefault(row["filename"], []).append(float(row["along_m"]))
+            for filename, along_m in estimates.items():  # Eq. 4
+                fix = fixes[filename]
+                self.assertEqual(int(fix["matches"]), len(along_m))
+                self.assertAlmostEqual(sum(along_m) / len(along_m), float(fix["along_m"]), delta=1e-3)
+            self.assertGreaterEqual(len(estimates), 0.9 * len(fixes))
+        regressions = {}
+        for row in rows_of(out / "regressions.csv"):
+            regressions.setdefault(row["tracklet"], []).append(row)
+        self.assertGreater(len(regressions), 3)
+        for rows in regressions.values():
+            self.assertGreaterEqual(len(rows), 3)
+            residuals = [float(r["offset_m"]) + float(r["slope"]) * float(r["scale_px"]) - float(r["along_m"]) for r in rows]
+            self.assertAlmostEqual(sum(residuals) / len(rows), 0, delta=1e-2)  # least squares
 
     def check_against_rows(self, entry, rows):
         self.assertEqual(list(rows[0]), FIX_COLUMNS + ["truth_along_m", "error_m"])
@@ -94,9 +131,11 @@ class Line(CommandTest):
 
     def test_refuses_methods_that_the_map_does_not_serve(self):
         self.build_map()
-        result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
-                     "--method", "tracklet-regression")
-        self.expect_refused(result, 1, "tracklets-scale", "--lab")
+        for method, layer in {"wisurf": "wisurf", "scale-only": "frames", "tracklet-matching": "observations",
+                              "tracklet-regression": "tracklets-scale"}.items():
+            result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
+                         "--method", method)
+            self.expect_refused(result, 1, f"'{layer}'", "--lab")
         result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
                      "--method", "magic")
         self.expect_refused(result, 1, "'magic' is no method", "milepost")

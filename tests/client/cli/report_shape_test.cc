@@ -78,15 +78,24 @@ TEST(ReportShape, TheGreatestValueLiesInsideThePlot) {
   EXPECT_THAT(matches.substr(0, matches.find("<figcaption>")), HasSubstr(">40</text>"));
 }
 
-TEST(ReportShape, TheDefaultMethodHasTheFirstColourWhereverItStands) {
+TEST(ReportShape, AMethodHasItsColourWhateverStandsBesideIt) {
   const Drive drive = straight_drive(10);
   const auto errors_m = small_errors(10, 0.1);
-  const std::string html = report_html(report_input(
-      drive, {evaluation("wisurf", drive, errors_m), evaluation("milepost", drive, errors_m),
-              evaluation("scale-only", drive, errors_m)}));
-  EXPECT_THAT(html, HasSubstr("<span class=\"m1\"><i></i>wisurf</span>"));
-  EXPECT_THAT(html, HasSubstr("<span class=\"m0\"><i></i>milepost</span>"));
-  EXPECT_THAT(html, HasSubstr("<span class=\"m2\"><i></i>scale-only</span>"));
+  const auto legend_of = [&](const std::vector<const char*>& names) {
+    std::vector<MethodEvaluation> methods;
+    methods.reserve(names.size());
+    for (const char* name : names) methods.push_back(evaluation(name, drive, errors_m));
+    return report_html(report_input(drive, methods));
+  };
+  for (const std::string& html : {legend_of({"wisurf", "milepost", "scale-only"}),
+                                  legend_of({"scale-only", "wisurf", "milepost"})}) {
+    EXPECT_THAT(html, HasSubstr("<span class=\"m6\"><i></i>wisurf</span>"));
+    EXPECT_THAT(html, HasSubstr("<span class=\"m0\"><i></i>milepost</span>"));
+    EXPECT_THAT(html, HasSubstr("<span class=\"m5\"><i></i>scale-only</span>"));
+  }
+  const std::string html = legend_of({"mine", "milepost", "yours"});
+  EXPECT_THAT(html, HasSubstr("<span class=\"m1\"><i></i>mine</span>"));
+  EXPECT_THAT(html, HasSubstr("<span class=\"m2\"><i></i>yours</span>"));
 }
 
 TEST(ReportShape, ALongDriveByAllMethodsStaysSmall) {

@@ -86,9 +86,21 @@ TEST(Report, MarksTheBestOfEachColumn) {
   EXPECT_THAT(row_of(html, "far"), Not(HasSubstr("<strong>0.400")));
   EXPECT_THAT(row_of(html, "far"), HasSubstr("<strong>94.0</strong>"));
   EXPECT_THAT(row_of(html, "far"), HasSubstr("<strong>40.0</strong>"));
-  // What both print is the best of both.
-  EXPECT_THAT(row_of(html, "near"), HasSubstr("<strong>1.30</strong>"));
-  EXPECT_THAT(row_of(html, "far"), HasSubstr("<strong>1.30</strong>"));
+  // Where both say the same, neither is better.
+  EXPECT_THAT(html, Not(HasSubstr("<strong>1.30")));
+}
+
+TEST(Report, MethodsThatSayTheBestAlikeShareTheMark) {
+  const Drive drive = straight_drive(20);
+  std::vector<MethodEvaluation> methods;
+  for (const char* name : {"light", "slim", "heavy"}) {
+    methods.push_back(evaluation(name, drive, small_errors(20, 0.05)));
+  }
+  methods[2].summary.map_kb_per_m = 9;
+  const std::string html = report_html(report_input(drive, methods));
+  EXPECT_THAT(row_of(html, "light"), HasSubstr("<strong>1.30</strong>"));
+  EXPECT_THAT(row_of(html, "slim"), HasSubstr("<strong>1.30</strong>"));
+  EXPECT_THAT(row_of(html, "heavy"), Not(HasSubstr("<strong>")));
 }
 
 TEST(Report, MarksNothingWhereThereIsNothingToCompare) {

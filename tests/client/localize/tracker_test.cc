@@ -27,7 +27,7 @@ TEST(PaperTracker, SearchesFromTheLastPositionToRhoStepsAhead) {  // section 4.2
 
 TEST(PaperTracker, WithoutFilterItIsTheMeasurement) {
   PaperTrackerSettings settings;
-  settings.filter = false;
+  settings.filter = PaperFilter::none;
   const auto tracker = make_paper_tracker(settings);
   tracker->start(0, {100, 0.5, 20});
   for (int k = 1; k < 6; ++k) {

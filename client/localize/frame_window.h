@@ -1,0 +1,46 @@
+// The map's frames around the vehicle: decoded tiles of one layer of one segment.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "client/localize/tile_window.h"
+#include "schema/feature/descriptor_index.h"
+#include "schema/tile/database_frame.h"
+
+namespace milepost {
+
+// A frame of the map with an index over its features.
+class IndexedFrame {
+ public:
+  IndexedFrame(const DatabaseFrame& frame, const IndexSettings& settings)
+      : frame_(&frame), settings_(settings) {}
+
+  const DatabaseFrame& frame() const { return *frame_; }
+  // Made when it is first asked for: most frames held are never matched.
+  const DescriptorIndex& index() const;
+
+ private:
+  const DatabaseFrame* frame_;
+  IndexSettings settings_;
+  mutable std::unique_ptr<DescriptorIndex> index_;
+};
+
+// Not safe to use from several threads at once.
+class FrameWindow {
+ public:
+  FrameWindow(LayerSource from, const WindowReach& reach, const IndexSettings& index);
+
+  // Makes sure that every frame in `range` is held. Errors: those of MapSource::tiles, corrupt.
+  Status cover(const AlongRange& range);
+
+  // By ascending along. Valid until the next cover().
+  const std::vector<IndexedFrame>& frames() const { return frames_; }
+
+ private:
+  TileWindow<FrameTile> tiles_;
+  IndexSettings index_;
+  std::vector<IndexedFrame> frames_;
+};
+
+}  // namespace milepost

@@ -1,0 +1,109 @@
+#include <cmath>
+
+#include "client/localize/follower.h"
+#include "client/localize/matching.h"
+#include "client/localize/tracklet_window.h"
+
+namespace milepost {
+namespace {
+
+constexpr double kStartRefineM = 3;  // to either side of the start, for the second look
+
+class TrackletFollower : public Follower {
+ public:
+  TrackletFollower(const SegmentSession& session, const QueryCamera& camera,
+                   const LocalizerSettings& settings, const TrackletMethod& method)
+      : feature_(session.feature),
+        scale_ratio_(session.map_focal_px / std::sqrt(camera.focal_x_px * camera.focal_y_px)),
+        image_width_px_(camera.width_px),
+        min_start_support_(settings.min_start_support),
+        on_estimate_(settings.on_estimate),
+        method_(method),
+        window_(session.layer, session.items, settings.window),
+        tracker_(make_tracker(method)) {}
+
+  // A start is found in two looks: all tracklets near the coarse position here, then those near the
+  // answer in start().
+  Result<std::optional<Sighting>> find(const QueryFrame& frame, const AlongRange& around) override {
+    const auto matches = matches_in(frame, around);
+    if (!matches) return matches.error();
+    const auto seen = combine_robustly(estimates_of(*matches), method_.robust);
+    if (!seen || seen->support < min_start_support_) return std::optional<Sighting>();
+    return std::optional(Sighting{*seen, static_cast<double>(seen->support), around});
+  }
+
+  Result<int> start(const QueryFrame& frame, const Sighting& sighting) override {
+    const double along_m = sighting.measurement.along_m;
+    const auto matches = matches_in(frame, AlongRange{along_m, along_m}.widened(kStartRefineM));
+    if (!matches) return matches.error();
+    const Measurement first =
+        combine(estimates_of(*matches), method_).value_or(sighting.measurement);
+    tracker_->start(frame.timestamp_s, first);
+    return first.support;
+  }
+
+  double expected_along_m(double timestamp_s) const override {
+    return tracker_->predict(timestamp_s).along_m;
+  }
+
+  Followed follow(const QueryFrame& frame,
+                  const std::optional<CoarsePosition>& /*coarse*/) override {
+    Followed followed;
+    const auto matches = matches_in(frame, tracker_->search_region(frame.timestamp_s));
+    std::optional<Measurement> measured;
+    if (matches) {
+      tell(*matches);
+      measured = combine(estimates_of(*matches), method_);
+    } else {
+      followed.failure = matches.error();
+    }
+    followed.measured = tracker_->advance(frame.timestamp_s, measured);
+    followed.matches = followed.measured ? measured->support : 0;
+    return followed;
+  }
+
+  TrackedPosition position() const override { return tracker_->position(); }
+
+ private:
+  Result<std::vector<TrackletMatch>> matches_in(const QueryFrame& frame, const AlongRange& region) {
+    const Status covered = window_.cover(region);
+    if (!covered.ok()) return covered.error();
+    return match_tracklets(frame.features(feature_), scale_ratio_, image_width_px_, window_, region,
+                           method_.match);
+  }
+
+  static std::vector<PositionEstimate> estimates_of(const std::vector<TrackletMatch>& matches) {
+    std::vector<PositionEstimate> estimates;
+    estimates.reserve(matches.size());
+    for (const TrackletMatch& match : matches) estimates.push_back(match.estimate);
+    return estimates;
+  }
+
+  void tell(const std::vector<TrackletMatch>& matches) const {
+    if (!on_estimate_) return;
+    for (const TrackletMatch& match : matches) {
+      const Tracklet& tracklet = window_.tracklets()[match.tracklet];
+      on_estimate_({match.estimate, match.scale_px, tracklet.along, tracklet.r_squared});
+    }
+  }
+
+  FeatureParameters feature_;
+  double scale_ratio_;  // brings scales of the query's camera to those of the map's
+  int image_width_px_;
+  int min_start_support_;
+  std::function<void(const TrackletEstimate&)> on_estimate_;
+  TrackletMethod method_;
+  TrackletWindow window_;
+  std::unique_ptr<Tracker> tracker_;
+};
+
+}  // namespace
+
+std::unique_ptr<Follower> make_tracklet_follower(const SegmentSession& session,
+                                                 const QueryCamera& camera,
+                                                 const LocalizerSettings& settings,
+                                                 const TrackletMethod& method) {
+  return std::make_unique<TrackletFollower>(session, camera, settings, method);
+}
+
+}  // namespace milepost

@@ -1,0 +1,14 @@
+// What the tiles of a layer hold, as the layer's parameters name it (FORMAT.md 2.4).
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace milepost {
+
+enum class LayerItems { tracklets, observations, frames };
+
+const char* name_of(LayerItems items);
+std::optional<LayerItems> layer_items_named(std::string_view name);
+
+}  // namespace milepost

@@ -1,0 +1,23 @@
+"""Made-up results for the tests."""
+import numpy as np
+
+from laboratory.fixes import PairFixes
+
+
+def fixes(pair, method, errors_m, sigma_m=1.0, curved=None, lateral_m=None, kb_per_m=4.0, length_m=100.0,
+          map_name=None):
+    """A PairFixes with these errors, frames one metre apart; NaN: not localized."""
+    errors_m = np.asarray(errors_m, float)
+    count = len(errors_m)
+    return PairFixes(
+        pair=pair, method=method, truth_along_m=np.arange(count, dtype=float), error_m=errors_m,
+        sigma_m=np.broadcast_to(np.asarray(sigma_m, float), count).copy(),
+        curved=np.zeros(count, bool) if curved is None else np.asarray(curved, bool),
+        lateral_m=np.zeros(count) if lateral_m is None else np.asarray(lateral_m, float),
+        map_kb_per_m=kb_per_m, map_length_m=length_m, map_name=map_name or f"map-{pair}")
+
+
+def regression_rows():
+    """Rows of a regressions.csv: two features of a fixed size, seen from nearer and nearer."""
+    return [{"tracklet": name, "along_m": str(along_m), "scale_px": str(size_px_m / (place_m - along_m))}
+            for name, size_px_m, place_m in (("17", 90.0, 40.0), ("4", 200.0, 55.0)) for along_m in range(10, 26, 3)]

@@ -1,0 +1,67 @@
+// The town's roads, where they meet, and the routes that drives take.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/simulator/path.h"
+#include "tests/simulator/terrain.h"
+
+namespace milepost::simulator {
+
+// What stands along a stretch of road.
+enum class Frontage {
+  canyon,  // tall houses wall to wall, shops
+  avenue,  // houses of two or three floors, front gardens, trees
+  narrow,  // lower houses wall to wall
+  open,    // fields, few farms
+};
+
+struct Stretch {
+  double from_m = 0;  // up to the next stretch
+  Frontage frontage = Frontage::narrow;
+};
+
+struct Road {
+  std::string name;
+  Path path;                   // its middle
+  double half_width_m = 3.25;  // of the carriageway
+  double parking_m = 0;        // of that, at either side
+  bool has_centre_line = true;
+  std::vector<Stretch> stretches;
+
+  Frontage frontage_at(double along_m) const;
+};
+
+double pavement_width_m(Frontage frontage);
+
+// A place where the carriageway of one road opens onto another's.
+struct Mouth {
+  std::size_t road = 0;
+  double along_m = 0;   // of `road`, at the other road's edge
+  double outwards = 1;  // the sign of the along that leads away from the junction
+};
+
+// A line to drive, in the middle of the road; the lane lies kLaneM to its right.
+struct Route {
+  std::string name;
+  Path path;
+};
+
+inline constexpr double kLaneM = 1.7;
+
+struct Network {
+  Terrain terrain;
+  std::vector<Road> roads;
+  std::vector<Mouth> mouths;
+  std::vector<Route> routes;
+  cv::Vec2d south_west, north_east;  // the town's bounds
+
+  const Route* route(const std::string& name) const;  // null if there is none of this name
+};
+
+// The same plan for every seed; where exactly the roads lie and how high the hill is differ.
+Network make_network(std::uint64_t seed);
+
+}  // namespace milepost::simulator

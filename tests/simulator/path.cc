@@ -1,0 +1,115 @@
+#include "tests/simulator/path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace milepost::simulator {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double heading_of(const cv::Vec2d& direction) { return std::atan2(direction[0], direction[1]); }
+
+}  // namespace
+
+cv::Vec2d forward_of(double heading_rad) { return {std::sin(heading_rad), std::cos(heading_rad)}; }
+cv::Vec2d right_of(double heading_rad) { return {std::cos(heading_rad), -std::sin(heading_rad)}; }
+
+void Path::append(double length_m, double curvature_per_m, const cv::Vec2d& start,
+                  double heading_rad) {
+  const double from_m = pieces_.empty() ? 0 : pieces_.back().from_m + pieces_.back().length_m;
+  if (length_m > 1e-9) pieces_.push_back({from_m, length_m, start, heading_rad, curvature_per_m});
+}
+
+Path Path::through(const std::vector<Bend>& bends) {
+  Path path;
+  cv::Vec2d at = bends.front().at;
+  for (std::size_t i = 1; i < bends.size(); ++i) {
+    const cv::Vec2d in = bends[i].at - bends[i - 1].at;
+    const double heading = heading_of(in);
+    if (i + 1 == bends.size()) {
+      path.append(cv::norm(bends[i].at - at), 0, at, heading);
+      break;
+    }
+    const cv::Vec2d out = bends[i + 1].at - bends[i].at;
+    const double turn = std::remainder(heading_of(out) - heading, 2 * kPi);
+    const double cut_m = bends[i].radius_m * std::tan(std::abs(turn) / 2);
+    const cv::Vec2d arc_start = bends[i].at - in * (cut_m / cv::norm(in));
+    path.append(cv::norm(arc_start - at), 0, at, heading);
+    const double curvature = (turn > 0 ? 1 : -1) / bends[i].radius_m;
+    path.append(std::abs(turn) * bends[i].radius_m, curvature, arc_start, heading);
+    at = bends[i].at + out * (cut_m / cv::norm(out));
+  }
+  return path;
+}
+
+Path Path::circle(const cv::Vec2d& centre, double radius_m) {
+  Path path;
+  path.append(2 * kPi * radius_m, -1 / radius_m, centre + cv::Vec2d(radius_m, 0), 0);
+  return path;
+}
+
+const Path::Piece& Path::piece_at(double along_m) const {
+  const auto after =
+      std::upper_bound(pieces_.begin(), pieces_.end(), along_m,
+                       [](double along, const Piece& piece) { return along < piece.from_m; });
+  return after == pieces_.begin() ? pieces_.front() : *std::prev(after);
+}
+
+cv::Vec2d Path::point_of(const Piece& piece, double local_m) {
+  const double k = piece.curvature_per_m;
+  if (k == 0) return piece.start + forward_of(piece.heading_rad) * local_m;
+  const double heading = piece.heading_rad + k * local_m;
+  return piece.start + (right_of(piece.heading_rad) - right_of(heading)) * (1 / k);
+}
+
+cv::Vec2d Path::position_at(const RoadPlace& place) const {
+  const Piece& piece = piece_at(place.along_m);
+  const double local_m = place.along_m - piece.from_m;
+  const double heading = piece.heading_rad + piece.curvature_per_m * local_m;
+  return point_of(piece, local_m) + right_of(heading) * place.lateral_m;
+}
+
+double Path::heading_rad_at(double along_m) const {
+  const Piece& piece = piece_at(along_m);
+  return piece.heading_rad + piece.curvature_per_m * (along_m - piece.from_m);
+}
+
+double Path::curvature_per_m_at(double along_m) const { return piece_at(along_m).curvature_per_m; }
+
+double Path::nearest_of(const Piece& piece, const cv::Vec2d& position) {
+  const double k = piece.curvature_per_m;
+  double local_m = 0;
+  if (k == 0) {
+    local_m = (position - piece.start).dot(forward_of(piece.heading_rad));
+  } else {
+    // From the arc's centre the position lies on the radius of the nearest point.
+    const double side = k > 0 ? 1 : -1;
+    const cv::Vec2d to_centre =
+        (piece.start + right_of(piece.heading_rad) * (1 / k) - position) * side;
+    const double heading = std::atan2(-to_centre[1], to_centre[0]);
+    const double half = piece.length_m * std::abs(k) / 2;
+    const double turned = std::remainder((heading - piece.heading_rad) * side - half, 2 * kPi);
+    local_m = (turned + half) / std::abs(k);
+  }
+  return std::clamp(local_m, 0.0, piece.length_m);
+}
+
+RoadPlace Path::place_of(const cv::Vec2d& position) const {
+  RoadPlace nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Piece& piece : pieces_) {
+    const double local_m = nearest_of(piece, position);
+    const cv::Vec2d offset = position - point_of(piece, local_m);
+    const double distance = cv::norm(offset);
+    if (distance >= least) continue;
+    least = distance;
+    const double heading = piece.heading_rad + piece.curvature_per_m * local_m;
+    nearest = {piece.from_m + local_m, offset.dot(right_of(heading)) < 0 ? -distance : distance};
+  }
+  return nearest;
+}
+
+}  // namespace milepost::simulator

@@ -1,0 +1,58 @@
+// A smooth line in plan: straights joined by arcs, measured by arc length.
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace milepost::simulator {
+
+// Metres along a path from its start, and to the right of it.
+struct RoadPlace {
+  double along_m = 0;
+  double lateral_m = 0;
+};
+
+// A point that a path is drawn to, and the radius that rounds it off.
+struct Bend {
+  cv::Vec2d at;  // east, north
+  double radius_m = 0;
+};
+
+// A unit vector of a heading, clockwise from north, and the one to its right.
+cv::Vec2d forward_of(double heading_rad);
+cv::Vec2d right_of(double heading_rad);
+
+class Path {
+ public:
+  // From the first bend to the last by straights that touch the arcs between them.
+  // REQUIRES: at least two bends; the arcs have room on the straights.
+  static Path through(const std::vector<Bend>& bends);
+  // Once around, counter-clockwise, from the circle's easternmost point.
+  static Path circle(const cv::Vec2d& centre, double radius_m);
+
+  double length_m() const { return pieces_.back().from_m + pieces_.back().length_m; }
+  // Before the start and after the end the path goes on as it begins and ends.
+  cv::Vec2d position_at(const RoadPlace& place) const;
+  double heading_rad_at(double along_m) const;
+  double curvature_per_m_at(double along_m) const;  // positive to the right
+  // The nearest point of the path: its along, and how far the position lies off it, negative to
+  // the left.
+  RoadPlace place_of(const cv::Vec2d& position) const;
+
+ private:
+  struct Piece {
+    double from_m, length_m;
+    cv::Vec2d start;
+    double heading_rad, curvature_per_m;
+  };
+
+  void append(double length_m, double curvature_per_m, const cv::Vec2d& start, double heading_rad);
+  const Piece& piece_at(double along_m) const;
+  static cv::Vec2d point_of(const Piece& piece, double local_m);
+  static double nearest_of(const Piece& piece, const cv::Vec2d& position);
+
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace milepost::simulator

@@ -1,0 +1,54 @@
+#include "tests/simulator/path.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace milepost::simulator {
+namespace {
+
+Path winding() {
+  return Path::through({{{0, 0}}, {{0, 100}, 20}, {{80, 150}, 30}, {{80, 300}, 40}, {{200, 300}}});
+}
+
+TEST(Path, PlacesAreFoundAgain) {
+  for (const Path& path : {winding(), Path::circle({5, -3}, 12)}) {
+    for (double along_m = 0.5; along_m < path.length_m(); along_m += 3.1) {
+      for (const double lateral_m : {-5.0, 0.0, 1.75, 5.0}) {
+        const RoadPlace place = path.place_of(path.position_at({along_m, lateral_m}));
+        EXPECT_NEAR(place.along_m, along_m, 1e-6);
+        EXPECT_NEAR(place.lateral_m, lateral_m, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(Path, IsMeasuredByArcLengthAlongItsHeading) {
+  const Path path = winding();
+  constexpr double kStepM = 1e-3;
+  for (double along_m = 1; along_m < path.length_m() - 1; along_m += 2.3) {
+    const cv::Vec2d step =
+        path.position_at({along_m + kStepM, 0}) - path.position_at({along_m - kStepM, 0});
+    const double heading = path.heading_rad_at(along_m);
+    EXPECT_NEAR(step[0] / (2 * kStepM), std::sin(heading), 1e-4) << along_m;
+    EXPECT_NEAR(step[1] / (2 * kStepM), std::cos(heading), 1e-4) << along_m;
+  }
+}
+
+TEST(Path, RoundsItsBendsAndEndsWhereItWasDrawnTo) {
+  const Path path = winding();
+  const cv::Vec2d end = path.position_at({path.length_m(), 0});
+  EXPECT_NEAR(end[0], 200, 1e-9);
+  EXPECT_NEAR(end[1], 300, 1e-9);
+  EXPECT_GT(std::abs(path.place_of({0, 100}).lateral_m), 1);  // the corner is cut
+  EXPECT_GT(path.curvature_per_m_at(path.place_of({0, 100}).along_m), 1.0 / 21);  // to the right
+}
+
+TEST(Path, LateralIsPositiveToTheRight) {
+  const Path path = Path::through({{{0, 0}}, {{100, 0}}});  // eastwards
+  EXPECT_NEAR(path.position_at({10, 2})[1], -2, 1e-12);
+  EXPECT_NEAR(path.place_of({10, -2}).lateral_m, 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace milepost::simulator

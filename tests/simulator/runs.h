@@ -1,0 +1,46 @@
+// The drives that are recorded in a town: who drives which route, when, and how.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/drive/drive.h"
+#include "tests/simulator/light.h"
+#include "tests/simulator/motion.h"
+#include "tests/simulator/network.h"
+
+namespace milepost::simulator {
+
+// The camera of the tracklet paper: 600 x 500 pixels, 80 x 64 degrees.
+inline constexpr Camera kPaperCamera{600, 500, 357.5, 400.1, 300, 250};
+
+struct RunPlan {
+  std::string name;
+  std::string route;
+  std::string says;  // one line for who chooses
+  Camera camera = kPaperCamera;
+  MotionPlan motion;
+  double spacing_m = 0;  // between frames; 0: frames come by time
+  double frame_period_s = 0.2;
+  double period_jitter_s = 0;     // standard deviation
+  double dropped_share = 0;       // of frames that the recorder lost, [0, 1)
+  double heading_jitter_deg = 0;  // standard deviations, frame by frame
+  double pitch_jitter_deg = 0;
+  double roll_jitter_deg = 0;
+  double position_noise_m = 0;  // of the positions written, slowly changing
+  Light light;
+  double image_noise = 2;  // standard deviation, in grey levels
+  bool has_truck_ahead = false;
+  bool has_oncoming = false;
+  bool has_receiver = false;  // writes gps.csv, 1 Hz
+  bool has_odometer = false;  // writes odometry.csv, 10 Hz
+  std::uint64_t seed = 1;     // of everything random in the run
+};
+
+// All drives of all routes, each route's mapping drive first. `length_m` cuts each route short.
+std::vector<RunPlan> make_runs(const Network& network, std::uint64_t seed, double length_m);
+
+// The routes that are driven where none is asked for.
+bool is_driven_by_default(const std::string& route);
+
+}  // namespace milepost::simulator
