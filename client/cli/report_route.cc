@@ -242,6 +242,21 @@ Figure value_figure(const ReportSeries& series, const std::string& heading,
 double matches_of(const EvaluatedFix& fix) { return fix.frame.fix.matches; }
 double latency_ms_of(const EvaluatedFix& fix) { return fix.frame.latency_ms; }
 
+// Without the methods that compare whole images and match nothing; the chief stays.
+ReportSeries matching_methods(const ReportSeries& all) {
+  ReportSeries matching = all;
+  matching.methods.clear();
+  for (const MethodSeries& method : all.methods) {
+    const auto& fixes = method.evaluation->fixes;
+    const bool matches = std::any_of(fixes.begin(), fixes.end(),
+                                     [](const EvaluatedFix& fix) { return matches_of(fix) > 0; });
+    const bool is_chief = &method == &all.chief_method();
+    if (is_chief) matching.chief = matching.methods.size();
+    if (matches || is_chief) matching.methods.push_back(method);
+  }
+  return matching;
+}
+
 }  // namespace
 
 Figure error_figure(const ReportSeries& series) {
@@ -264,13 +279,14 @@ Figure error_figure(const ReportSeries& series) {
 }
 
 Figure matches_figure(const ReportSeries& series) {
-  Figure figure = value_figure(series, "Matches per frame", "matches", 160, matches_of);
+  Figure figure =
+      value_figure(matching_methods(series), "Matches per frame", "matches", 160, matches_of);
   const MethodSeries& chief = series.chief_method();
   std::vector<double> matches = values_of(chief, matches_of);
   std::sort(matches.begin(), matches.end());
   figure.caption =
-      "How many tracklets of the map agreed on the measurement of each frame; where there are few, "
-      "the error above grows. " +
+      "How many tracklets, or features, of the map agreed on the measurement of each frame; where "
+      "there are few, the error above grows. " +
       chief.name + ": half of the frames have " + plot::number(quantile(matches, 0.5), 0) +
       " or more, one in twenty " + plot::number(quantile(matches, 0.05), 0) + " or fewer.";
   return figure;

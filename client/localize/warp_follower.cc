@@ -119,7 +119,7 @@ class WarpFollower : public Follower {
   std::optional<double> cost_of(const QueryFrame& frame, const IndexedFrame& map_frame,
                                 int& matches) const {
     if (method_.comparison == FrameComparison::image) {
-      if (!map_frame.frame().image) return std::nullopt;
+      if (!frame.image || !map_frame.frame().image) return std::nullopt;
       return image_distance(frame.image(), *map_frame.frame().image);
     }
     const double query_focal_px = std::sqrt(camera_.focal_x_px * camera_.focal_y_px);

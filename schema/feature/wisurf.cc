@@ -11,7 +11,6 @@ namespace {
 constexpr int kSamples = 20;  // along each side
 constexpr int kCellSamples = 5;
 constexpr int kCells = kSamples / kCellSamples;
-constexpr double kSigma = 3.3;  // of the Gaussian, in samples
 
 // The bounds of a wavelet along one side of the image, in pixels: first half, then second half.
 struct Halves {
@@ -36,12 +35,6 @@ double mean_of(const cv::Mat& sums, int x0, int x1, int y0, int y1) {
   return static_cast<double>(sum) / area;
 }
 
-double weight_at(int i, int j) {
-  const double x = i + 0.5 - kSamples / 2.0;
-  const double y = j + 0.5 - kSamples / 2.0;
-  return std::exp(-(x * x + y * y) / (2 * kSigma * kSigma));
-}
-
 }  // namespace
 
 ImageDescriptor wisurf(const cv::Mat& gray) {
@@ -52,11 +45,10 @@ ImageDescriptor wisurf(const cv::Mat& gray) {
     const Halves y = halves_at(j, gray.rows);
     for (int i = 0; i < kSamples; ++i) {
       const Halves x = halves_at(i, gray.cols);
-      const double weight = weight_at(i, j);
-      const double dx = weight * (mean_of(sums, x.middle, x.to, y.from, y.to) -
-                                  mean_of(sums, x.from, x.middle, y.from, y.to));
-      const double dy = weight * (mean_of(sums, x.from, x.to, y.middle, y.to) -
-                                  mean_of(sums, x.from, x.to, y.from, y.middle));
+      const double dx = mean_of(sums, x.middle, x.to, y.from, y.to) -
+                        mean_of(sums, x.from, x.middle, y.from, y.to);
+      const double dy = mean_of(sums, x.from, x.to, y.middle, y.to) -
+                        mean_of(sums, x.from, x.to, y.from, y.middle);
       double* cell = values.data() + 4 * (j / kCellSamples * kCells + i / kCellSamples);
       cell[0] += dx;
       cell[1] += dy;

@@ -50,8 +50,11 @@ class Command(unittest.TestCase):
             self.assertGreater(float(row["map_kB_per_m"]), 0)
         self.assertEqual(rows["tracklet-regression-kalman"]["paper_mean_m"], "0.33")
         for name in ("report.html", "table2.txt", "calibration.csv", "claims.txt", "study-lateral.csv",
-                     "table1-pairs.txt"):
+                     "table1-pairs.txt", "normality.csv", "regressions.csv"):
             self.assertGreater((out / name).stat().st_size, 100, name)
+        page = (out / "report.html").read_text()
+        for number in (5, 6, 7, 8):
+            self.assertIn(f"<h2>Figure {number}: ", page)
         self.assertIn(f"| milepost | **{rows['milepost']['mean_m']}** |", results.read_text())
 
         again = self.lab(self.pairs, "--method", *METHODS, "--out", self.folder / "again",

@@ -98,6 +98,18 @@ TEST(ReportShape, AMethodHasItsColourWhateverStandsBesideIt) {
   EXPECT_THAT(html, HasSubstr("<span class=\"m2\"><i></i>yours</span>"));
 }
 
+TEST(ReportShape, AMethodThatMatchesNothingIsNotAmongTheMatches) {
+  const Drive drive = straight_drive(10);
+  MethodEvaluation of_images = evaluation("wisurf", drive, small_errors(10, 0.1));
+  for (EvaluatedFix& fix : of_images.fixes) fix.frame.fix.matches = 0;
+  const std::string html = report_html(
+      report_input(drive, {of_images, evaluation("milepost", drive, small_errors(10, 0.1))}));
+  const std::string matches = html.substr(html.find("<h2>Matches per frame</h2>"));
+  const std::string figure = matches.substr(0, matches.find("</figure>"));
+  EXPECT_THAT(figure, HasSubstr("<i></i>milepost</span>"));
+  EXPECT_THAT(figure, Not(HasSubstr("wisurf")));
+}
+
 TEST(ReportShape, ALongDriveByAllMethodsStaysSmall) {
   const Drive drive = straight_drive(2000);
   std::vector<MethodEvaluation> methods;

@@ -81,6 +81,8 @@ def error_by_road_type(fixes):
                               color=colour(method), linestyle=DASHES.get(method, "-"))
                     axis.plot([errors_m.mean()], [0], marker="^", markersize=7, color=colour(method), clip_on=False,
                               markeredgewidth=0)
+            if count == 0:
+                axis.text(reach_m / 2, 50, "no frame on such road", ha="center", va="center", color=MUTED)
             axis.set_title(f"{'(a)' if road_type == 'curved' else '(b)'} {road_type} road, {count} frames")
             axis.set_xlabel("error (m)")
             axis.set_xlim(0, reach_m)

@@ -2,22 +2,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <limits>
 #include <random>
 
 #include "schema/tile/codec.h"
 #include "schema/tile/frame.h"
 #include "schema/tile/frame_tile_generated.h"
 #include "schema/tile/table.h"
+#include "tests/schema/tile/hostile_table.h"
 
 namespace milepost {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using testing::kInfinity;
+using testing::kNan;
 
 // The arrays of a sound table of two frames, of two features and of one.
 struct Table {
@@ -110,13 +109,7 @@ TEST(FrameTable, TakesATileWithoutFrames) {
   EXPECT_TRUE(decoded->frames.empty());
 }
 
-struct Violation {
-  const char* name;
-  std::function<void(Table&)> make;
-  const char* message;
-};
-
-void PrintTo(const Violation& violation, std::ostream* out) { *out << violation.name; }
+using Violation = testing::Violation<Table>;
 
 class FrameViolation : public ::testing::TestWithParam<Violation> {};
 
@@ -171,37 +164,19 @@ const std::vector<Violation> kViolations = {
     {"InfiniteScale", [](Table& t) { t.scale_px[1] = kInfinity; }, kScale},
 };
 
-std::string name_of(const ::testing::TestParamInfo<Violation>& test) { return test.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Each, FrameViolation, ::testing::ValuesIn(kViolations), name_of);
+INSTANTIATE_TEST_SUITE_P(Each, FrameViolation, ::testing::ValuesIn(kViolations),
+                         testing::name_of<Table>);
 
 TEST(FrameTable, ATileOfTrackletsIsNone) {
   EXPECT_THAT(message(bytes_of({}, "MPT1")), HasSubstr("identifier MPF1 (FORMAT.md 4.6)"));
 }
 
 TEST(FrameTable, EveryTruncationIsRefused) {
-  const Bytes content = bytes_of({});
-  for (std::size_t length = 0; length < content.size(); ++length) {
-    EXPECT_FALSE(frames_from_table(ByteView(content).first(length)).ok()) << length;
-  }
+  testing::expect_truncations_refused(bytes_of({}), frames_from_table);
 }
 
-// Damage behind a good checksum, as a hostile server would send it.
 TEST(FrameTable, DamagedBytesNeverDoHarm) {
-  const Bytes good = bytes_of({});
-  std::mt19937 random(3);
-  for (int trial = 0; trial < 20000; ++trial) {
-    Bytes content = good;
-    for (int i = 0; i < 1 + trial % 4; ++i) {
-      content[random() % content.size()] = static_cast<std::uint8_t>(random());
-    }
-    const auto tile = frames_from_table(content);
-    if (!tile.ok()) {
-      EXPECT_THAT(tile.error().line(), HasSubstr("FORMAT.md "));
-    } else {
-      EXPECT_TRUE(frames_from_table(table_from_frames(*tile)).ok()) << trial;
-    }
-  }
+  testing::expect_damage_harmless(bytes_of({}), frames_from_table, table_from_frames);
 }
 
 }  // namespace

@@ -2,22 +2,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <limits>
 #include <random>
 
 #include "schema/tile/codec.h"
 #include "schema/tile/frame.h"
 #include "schema/tile/observation_tile_generated.h"
 #include "schema/tile/table.h"
+#include "tests/schema/tile/hostile_table.h"
 
 namespace milepost {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using testing::kInfinity;
+using testing::kNan;
 
 // The arrays of a sound table of two tracklets, of three and of four observations.
 struct Table {
@@ -128,13 +127,7 @@ TEST(ObservationTable, TakesATileWithoutTracklets) {
   EXPECT_TRUE(decoded->tracklets.empty());
 }
 
-struct Violation {
-  const char* name;
-  std::function<void(Table&)> make;
-  const char* message;
-};
-
-void PrintTo(const Violation& violation, std::ostream* out) { *out << violation.name; }
+using Violation = testing::Violation<Table>;
 
 class ObservationViolation : public ::testing::TestWithParam<Violation> {};
 
@@ -192,9 +185,8 @@ const std::vector<Violation> kViolations = {
     {"NegativeSigma", [](Table& t) { t.residual_sigma_m[0] = -0.1F; }, "(FORMAT.md 3.10)"},
 };
 
-std::string name_of(const ::testing::TestParamInfo<Violation>& test) { return test.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Each, ObservationViolation, ::testing::ValuesIn(kViolations), name_of);
+INSTANTIATE_TEST_SUITE_P(Each, ObservationViolation, ::testing::ValuesIn(kViolations),
+                         testing::name_of<Table>);
 
 TEST(ObservationTable, HoldsAtMost65536Tracklets) {
   Table table;
@@ -207,28 +199,11 @@ TEST(ObservationTable, ATileOfTrackletsIsNone) {
 }
 
 TEST(ObservationTable, EveryTruncationIsRefused) {
-  const Bytes content = bytes_of({});
-  for (std::size_t length = 0; length < content.size(); ++length) {
-    EXPECT_FALSE(observations_from_table(ByteView(content).first(length)).ok()) << length;
-  }
+  testing::expect_truncations_refused(bytes_of({}), observations_from_table);
 }
 
-// Damage behind a good checksum, as a hostile server would send it.
 TEST(ObservationTable, DamagedBytesNeverDoHarm) {
-  const Bytes good = bytes_of({});
-  std::mt19937 random(3);
-  for (int trial = 0; trial < 20000; ++trial) {
-    Bytes content = good;
-    for (int i = 0; i < 1 + trial % 4; ++i) {
-      content[random() % content.size()] = static_cast<std::uint8_t>(random());
-    }
-    const auto tile = observations_from_table(content);
-    if (!tile.ok()) {
-      EXPECT_THAT(tile.error().line(), HasSubstr("FORMAT.md "));
-    } else {
-      EXPECT_TRUE(observations_from_table(table_from_observations(*tile)).ok()) << trial;
-    }
-  }
+  testing::expect_damage_harmless(bytes_of({}), observations_from_table, table_from_observations);
 }
 
 }  // namespace

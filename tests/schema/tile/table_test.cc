@@ -4,22 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <limits>
-#include <random>
-
 #include "schema/tile/codec.h"
 #include "schema/tile/frame.h"
 #include "schema/tile/tile_generated.h"
 #include "tests/schema/tile/example_tile.h"
+#include "tests/schema/tile/hostile_table.h"
 
 namespace milepost {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using testing::kInfinity;
+using testing::kNan;
 
 // The arrays of a sound table of two tracklets.
 struct Table {
@@ -70,13 +67,7 @@ TEST(Table, TheSoundOneIsTaken) {
   EXPECT_EQ(tile->tracklets[1].pixels.y_max_px, 44);
 }
 
-struct Violation {
-  const char* name;
-  std::function<void(Table&)> make;
-  const char* message;
-};
-
-void PrintTo(const Violation& violation, std::ostream* out) { *out << violation.name; }
+using Violation = testing::Violation<Table>;
 
 class TableViolation : public ::testing::TestWithParam<Violation> {};
 
@@ -161,9 +152,8 @@ const std::vector<Violation> kViolations = {
      "fewer than 3 observations (FORMAT.md 3.10)"},
 };
 
-std::string name_of(const ::testing::TestParamInfo<Violation>& test) { return test.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Each, TableViolation, ::testing::ValuesIn(kViolations), name_of);
+INSTANTIATE_TEST_SUITE_P(Each, TableViolation, ::testing::ValuesIn(kViolations),
+                         testing::name_of<Table>);
 
 TEST(Table, HoldsAtMost65536Tracklets) {
   constexpr std::size_t kMore = kMaxTrackletsPerTile + 1;
@@ -187,29 +177,12 @@ TEST(Table, AMissingArrayIsRefused) {
 TEST(Table, NoContentIsRefused) { EXPECT_THAT(message({}), HasSubstr("(FORMAT.md 3.3)")); }
 
 TEST(Table, EveryTruncationIsRefused) {
-  const Bytes content = table_from_tile(testing::example_tile());
-  for (std::size_t length = 0; length < content.size(); ++length) {
-    EXPECT_FALSE(tile_from_table(ByteView(content).first(length)).ok()) << length;
-  }
+  testing::expect_truncations_refused(table_from_tile(testing::example_tile()), tile_from_table);
 }
 
-// Damage behind a good checksum, as a hostile server would send it: refused or harmless, and what
-// is taken satisfies FORMAT.md.
 TEST(Table, DamagedBytesNeverDoHarm) {
-  const Bytes good = table_from_tile(testing::example_tile());
-  std::mt19937 random(3);
-  for (int trial = 0; trial < 20000; ++trial) {
-    Bytes content = good;
-    for (int i = 0; i < 1 + trial % 4; ++i) {
-      content[random() % content.size()] = static_cast<std::uint8_t>(random());
-    }
-    const auto tile = tile_from_table(content);
-    if (!tile.ok()) {
-      EXPECT_THAT(tile.error().line(), HasSubstr("FORMAT.md 3."));
-    } else {
-      EXPECT_TRUE(tile_from_table(table_from_tile(*tile)).ok()) << "trial " << trial;
-    }
-  }
+  testing::expect_damage_harmless(table_from_tile(testing::example_tile()), tile_from_table,
+                                  table_from_tile);
 }
 
 }  // namespace

@@ -1,0 +1,121 @@
+// Following by whole frames on a straight road whose images turn slowly from one to the next.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "client/localize/follower.h"
+#include "schema/tile/codec.h"
+#include "tests/client/localize/layer_of_tiles.h"
+
+namespace milepost {
+namespace {
+
+constexpr double kSpacingM = 2;
+constexpr double kLengthM = 200;
+constexpr GeoPoint kStart = {49.0, 8.4, 110};
+
+ImageDescriptor image_from(double along_m) {
+  ImageDescriptor image{};
+  image[0] = static_cast<float>(std::cos(along_m / 30));
+  image[1] = static_cast<float>(std::sin(along_m / 30));
+  return image;
+}
+
+SegmentSession straight_road() {
+  FrameTile tile{"road", 0, {}};
+  for (double along_m = 0; along_m <= kLengthM; along_m += kSpacingM) {
+    tile.frames.push_back({along_m, {}, image_from(along_m)});
+  }
+  auto source = std::make_shared<testing::LayerOfTiles>(
+      std::vector<testing::LayerOfTiles::Tile>{{{0, kLengthM}, encode_frames(tile)}});
+  GeoPoint end = kStart;
+  end.latitude_deg += kLengthM / 111229;  // metres in a degree of latitude there
+  return {{source, {}, "road", "wisurf"},
+          LayerItems::frames,
+          *RouteLine::from_vertices({kStart, end}),
+          {},
+          400};
+}
+
+class WarpFollowing : public ::testing::Test {
+ protected:
+  WarpFollowing() {
+    LocalizerSettings settings;
+    settings.method = *method_named("wisurf");
+    auto made = make_follower(session_, {600, 400, 400}, settings);
+    follower_ = std::move(*made);
+  }
+
+  // A frame taken at `along_m`.
+  QueryFrame frame(double along_m) {
+    image_ = image_from(along_m);
+    time_s_ += 0.2;
+    return {time_s_, {}, [this]() -> const ImageDescriptor& { return image_; }};
+  }
+
+  void start_at(double along_m) {
+    const QueryFrame first = frame(along_m);
+    const auto seen = follower_->find(first, AlongRange{along_m - 20, along_m + 20});
+    ASSERT_TRUE(seen.ok() && seen->has_value());
+    ASSERT_TRUE(follower_->start(first, **seen).ok());
+  }
+
+  CoarsePosition receiver_at(double along_m) const {
+    return {time_s_, session_.line.point_at(along_m), 5};
+  }
+
+  SegmentSession session_ = straight_road();
+  ImageDescriptor image_{};
+  double time_s_ = 10;
+  std::unique_ptr<Follower> follower_;
+};
+
+TEST_F(WarpFollowing, TakesTheNearestFrameOfTheMap) {
+  start_at(31.3);
+  double along_m = 31.3;
+  for (const double step_m : {1.7, 2.9, 0.0, 0.0, 3.3, 7.0, 7.0, 2.0, 1.1}) {
+    along_m += step_m;
+    EXPECT_TRUE(follower_->follow(frame(along_m), std::nullopt).measured);
+    EXPECT_NEAR(follower_->position().along_m, along_m, kSpacingM / 2 + 1e-6);
+    EXPECT_GE(follower_->position().sigma_m, kSpacingM / std::sqrt(12.0) - 1e-6);
+  }
+  EXPECT_LT(follower_->position().sigma_m, 3 * kSpacingM);
+}
+
+TEST_F(WarpFollowing, AReceiverThatContradictsMakesItNoMeasurement) {
+  start_at(50);
+  EXPECT_TRUE(follower_->follow(frame(52), receiver_at(60)).measured);
+  EXPECT_FALSE(
+      follower_->follow(frame(54), receiver_at(80)).measured);  // 3 sigmas and 5 m are 20 m
+}
+
+// The images are those of 2 m farther with each frame, but the road ends.
+TEST_F(WarpFollowing, StaysAtTheEndOfTheRoad) {
+  start_at(194);
+  for (double along_m = 196; along_m < 206; along_m += 2) {
+    (void)follower_->follow(frame(along_m), std::nullopt);
+  }
+  EXPECT_EQ(follower_->position().along_m, kLengthM);
+}
+
+TEST_F(WarpFollowing, NothingIsFoundWhereTheMapHasNoFrames) {
+  const auto seen = follower_->find(frame(50), AlongRange{300, 340});
+  ASSERT_TRUE(seen.ok());
+  EXPECT_FALSE(seen->has_value());
+}
+
+TEST(MakeFollower, RefusesALayerOfOtherItems) {
+  SegmentSession session = straight_road();
+  session.items = LayerItems::tracklets;
+  LocalizerSettings settings;
+  settings.method = *method_named("wisurf");
+  const auto made = make_follower(session, {600, 400, 400}, settings);
+  ASSERT_FALSE(made.ok());
+  EXPECT_EQ(made.error().code, ErrorCode::corrupt);
+  EXPECT_NE(made.error().line().find("layer 'wisurf': the method cannot use its tracklets"),
+            std::string::npos)
+      << made.error().line();
+}
+
+}  // namespace
+}  // namespace milepost

@@ -1,0 +1,62 @@
+// Tables as a broken or hostile writer makes them: what every kind of tile is tested with.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <random>
+#include <string>
+
+#include "schema/base/bytes.h"
+
+namespace milepost::testing {
+
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// A change that makes a sound table break one paragraph of FORMAT.md, and the message it must give.
+template <class Table>
+struct Violation {
+  const char* name;
+  std::function<void(Table&)> make;
+  const char* message;
+
+  friend void PrintTo(const Violation& violation, std::ostream* out) { *out << violation.name; }
+};
+
+template <class Table>
+std::string name_of(const ::testing::TestParamInfo<Violation<Table>>& test) {
+  return test.param.name;
+}
+
+template <class FromTable>
+void expect_truncations_refused(const Bytes& content, const FromTable& from_table) {
+  for (std::size_t length = 0; length < content.size(); ++length) {
+    EXPECT_FALSE(from_table(ByteView(content).first(length)).ok()) << length;
+  }
+}
+
+// Damage behind a good checksum, as a hostile server would send it: refused or harmless, and what
+// is taken satisfies FORMAT.md.
+template <class FromTable, class ToTable>
+void expect_damage_harmless(const Bytes& good, const FromTable& from_table,
+                            const ToTable& to_table) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 20000; ++trial) {
+    Bytes content = good;
+    for (int i = 0; i < 1 + trial % 4; ++i) {
+      content[random() % content.size()] = static_cast<std::uint8_t>(random());
+    }
+    const auto tile = from_table(content);
+    if (!tile.ok()) {
+      EXPECT_THAT(tile.error().line(), ::testing::HasSubstr("FORMAT.md "));
+    } else {
+      EXPECT_TRUE(from_table(to_table(*tile)).ok()) << "trial " << trial;
+    }
+  }
+}
+
+}  // namespace milepost::testing
