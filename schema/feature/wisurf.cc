@@ -49,7 +49,8 @@ ImageDescriptor wisurf(const cv::Mat& gray) {
                         mean_of(sums, x.from, x.middle, y.from, y.to);
       const double dy = mean_of(sums, x.from, x.to, y.middle, y.to) -
                         mean_of(sums, x.from, x.to, y.from, y.middle);
-      double* cell = values.data() + 4 * (j / kCellSamples * kCells + i / kCellSamples);
+      const int first = 4 * (j / kCellSamples * kCells + i / kCellSamples);
+      double* cell = &values[first];
       cell[0] += dx;
       cell[1] += dy;
       cell[2] += std::abs(dx);

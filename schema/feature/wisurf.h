@@ -15,9 +15,9 @@ namespace milepost {
 //   from the image's top left corner; its wavelet covers [x - w / 20, x + w / 20] by
 //   [y - h / 20, y + h / 20], cut at the image's edges; bounds are rounded to whole pixels.
 //   dx is the mean grey value of the wavelet's right half less that of its left half, dy that of
-//   the lower half less that of the upper one; both are weighted by a Gaussian of 3.3 samples about
-//   the image's centre. 4 x 4 cells of 5 x 5 samples, row by row, give sum dx, sum dy, sum |dx| and
-//   sum |dy| each.
+//   the lower half less that of the upper one. SURF's Gaussian weight about the feature is left
+//   out: an image has no feature in its middle (schema/DECISIONS.md 13).
+//   4 x 4 cells of 5 x 5 samples, row by row, give sum dx, sum dy, sum |dx| and sum |dy| each.
 // The 64 values are scaled to length 1; of an image without any change of grey all are 0.
 // REQUIRES: `gray` is 8-bit with one channel, not empty.
 ImageDescriptor wisurf(const cv::Mat& gray);
