@@ -40,8 +40,8 @@ class Follower {
   // All below REQUIRE start().
   // Where the camera is expected at a time after the last frame's.
   virtual double expected_along_m(double timestamp_s) const = 0;
-  // Follows to the next frame. `coarse`: the latest position of a receiver, if it is fresh.
-  virtual Followed follow(const QueryFrame& frame, const std::optional<CoarsePosition>& coarse) = 0;
+  // Follows to the next frame.
+  virtual Followed follow(const QueryFrame& frame) = 0;
   virtual TrackedPosition position() const = 0;
 };
 

@@ -55,6 +55,7 @@ struct Localizer::Impl {
   Result<std::optional<Start>> find_start(const QueryFrame& frame,
                                           const std::vector<NearbySegment>& candidates);
   bool coarse_is_fresh(double timestamp_s) const;
+  bool is_contradicted(double timestamp_s) const;
   Status enter(const NearbySegment& where);
   Result<Fix> track(const QueryFrame& frame);
   void leave(double timestamp_s);
@@ -105,6 +106,16 @@ Fix Localizer::Impl::located(const QueryFrame& frame, FixStatus status, int matc
 
 bool Localizer::Impl::coarse_is_fresh(double timestamp_s) const {
   return coarse && timestamp_s - coarse->timestamp_s <= settings.max_coarse_age_s;
+}
+
+// Whether a fresh position of the receiver is too far from where the camera is followed.
+bool Localizer::Impl::is_contradicted(double timestamp_s) const {
+  if (!coarse_is_fresh(timestamp_s)) return false;
+  const GeoPoint here = session->line.point_at(follower->position().along_m);
+  const double age_s = timestamp_s - coarse->timestamp_s;
+  return geodesic_distance_m(here, coarse->position) >
+         settings.contradiction_sigmas * coarse->sigma_m + settings.contradiction_reach_m +
+             kCoarseSpeedMps * age_s;
 }
 
 Status Localizer::Impl::enter(const NearbySegment& where) {
@@ -174,14 +185,13 @@ Result<Fix> Localizer::Impl::track(const QueryFrame& frame) {
     if (elsewhere && elsewhere->along_m) return elsewhere;
     return unlocated(frame, FixStatus::off_map);
   }
-  const Followed followed =
-      follower->follow(frame, coarse_is_fresh(frame.timestamp_s) ? coarse : std::nullopt);
+  const Followed followed = follower->follow(frame);
   if (followed.failure) noted = followed.failure;
   if (followed.failure && followed.failure->code == ErrorCode::gone) {  // rebuilt meanwhile
     leave(frame.timestamp_s);
     return start(frame);
   }
-  if (followed.measured) {
+  if (followed.measured && !is_contradicted(frame.timestamp_s)) {
     frames_without_measurement = 0;
     prefetch_ahead();
     return located(frame, FixStatus::tracking, followed.matches);

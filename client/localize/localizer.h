@@ -70,11 +70,16 @@ struct TrackletEstimate {
 
 struct LocalizerSettings {
   Method method;
-  double start_radius_m = 30;    // segments farther from the coarse position are not looked at
-  double start_sigmas = 3;       // of the coarse position, searched along the segment
-  double start_reach_m = 5;      // ... and so much more
-  int min_start_support = 6;     // tracklets that must agree before a start is believed
-  double max_coarse_age_s = 3;   // older positions start nothing
+  double start_radius_m = 30;   // segments farther from the coarse position are not looked at
+  double start_sigmas = 3;      // of the coarse position, searched along the segment
+  double start_reach_m = 5;     // ... and so much more
+  int min_start_support = 6;    // tracklets that must agree before a start is believed
+  double max_coarse_age_s = 3;  // older positions start and contradict nothing
+  // A fix so many sigmas of a receiver's position away from it, and so much more, is contradicted:
+  // its frame counts as one without measurement. No method notices by itself that it follows what
+  // only looks like the road.
+  double contradiction_sigmas = 4;
+  double contradiction_reach_m = 10;
   int max_predicted_frames = 8;  // frames without measurement before the vehicle counts as lost
   double prefetch_m = 300;       // fetched ahead in the background; 0 turns it off
   WindowSettings window;

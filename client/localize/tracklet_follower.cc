@@ -46,8 +46,7 @@ class TrackletFollower : public Follower {
     return tracker_->predict(timestamp_s).along_m;
   }
 
-  Followed follow(const QueryFrame& frame,
-                  const std::optional<CoarsePosition>& /*coarse*/) override {
+  Followed follow(const QueryFrame& frame) override {
     Followed followed;
     const auto matches = matches_in(frame, tracker_->search_region(frame.timestamp_s));
     std::optional<Measurement> measured;

@@ -44,7 +44,6 @@ class WarpFollower : public Follower {
                const LocalizerSettings& settings, const WarpMethod& method)
       : session_(session),
         camera_(camera),
-        settings_(settings),
         method_(method),
         window_(session.layer, settings.window.reach, settings.window.index) {}
 
@@ -67,7 +66,7 @@ class WarpFollower : public Follower {
 
   double expected_along_m(double /*timestamp_s*/) const override { return best_end(row_).along_m; }
 
-  Followed follow(const QueryFrame& frame, const std::optional<CoarsePosition>& coarse) override {
+  Followed follow(const QueryFrame& frame) override {
     const double max_step_m =
         std::max(method_.max_speed_mps * (frame.timestamp_s - latest_s_), method_.min_step_m);
     const double latest_m = best_end(row_).along_m;
@@ -78,7 +77,6 @@ class WarpFollower : public Follower {
     if (!seen->compared || next.empty()) return {};
     row_ = std::move(next);
     settle(frame.timestamp_s);
-    if (contradicted_by(coarse)) return {};
     return {.measured = true, .matches = matches_at_best(*seen)};
   }
 
@@ -149,17 +147,8 @@ class WarpFollower : public Follower {
     return (row_.back().along_m - row_.front().along_m) / static_cast<double>(row_.size() - 1);
   }
 
-  // Warping itself never notices that it has lost the vehicle or that the road has ended.
-  bool contradicted_by(const std::optional<CoarsePosition>& coarse) const {
-    if (!coarse) return false;
-    const GeoPoint here = session_.line.point_at(best_end(row_).along_m);
-    return geodesic_distance_m(here, coarse->position) >
-           settings_.start_sigmas * coarse->sigma_m + settings_.start_reach_m;
-  }
-
   const SegmentSession& session_;
   QueryCamera camera_;
-  LocalizerSettings settings_;
   WarpMethod method_;
   FrameWindow window_;
   WarpRow row_;  // of the latest frame; its least cost is 0

@@ -60,10 +60,6 @@ class WarpFollowing : public ::testing::Test {
     ASSERT_TRUE(follower_->start(first, **seen).ok());
   }
 
-  CoarsePosition receiver_at(double along_m) const {
-    return {time_s_, session_.line.point_at(along_m), 5};
-  }
-
   SegmentSession session_ = straight_road();
   ImageDescriptor image_{};
   double time_s_ = 10;
@@ -75,25 +71,18 @@ TEST_F(WarpFollowing, TakesTheNearestFrameOfTheMap) {
   double along_m = 31.3;
   for (const double step_m : {1.7, 2.9, 0.0, 0.0, 3.3, 7.0, 7.0, 2.0, 1.1}) {
     along_m += step_m;
-    EXPECT_TRUE(follower_->follow(frame(along_m), std::nullopt).measured);
+    EXPECT_TRUE(follower_->follow(frame(along_m)).measured);
     EXPECT_NEAR(follower_->position().along_m, along_m, kSpacingM / 2 + 1e-6);
     EXPECT_GE(follower_->position().sigma_m, kSpacingM / std::sqrt(12.0) - 1e-6);
   }
   EXPECT_LT(follower_->position().sigma_m, 3 * kSpacingM);
 }
 
-TEST_F(WarpFollowing, AReceiverThatContradictsMakesItNoMeasurement) {
-  start_at(50);
-  EXPECT_TRUE(follower_->follow(frame(52), receiver_at(60)).measured);
-  EXPECT_FALSE(
-      follower_->follow(frame(54), receiver_at(80)).measured);  // 3 sigmas and 5 m are 20 m
-}
-
 // The images are those of 2 m farther with each frame, but the road ends.
 TEST_F(WarpFollowing, StaysAtTheEndOfTheRoad) {
   start_at(194);
   for (double along_m = 196; along_m < 206; along_m += 2) {
-    (void)follower_->follow(frame(along_m), std::nullopt);
+    (void)follower_->follow(frame(along_m));
   }
   EXPECT_EQ(follower_->position().along_m, kLengthM);
 }
