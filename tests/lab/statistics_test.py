@@ -17,6 +17,7 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(figures.mean_m, 0.4)
         self.assertAlmostEqual(figures.std_m, math.sqrt((0.09 + 0.01 + 0.16) / 3))
         self.assertAlmostEqual(figures.max_m, 0.8)
+        self.assertAlmostEqual(figures.median_m, 0.3)
         self.assertEqual((figures.localized, figures.frames), (3, 4))
 
     def test_nothing_localized_has_no_figures(self):

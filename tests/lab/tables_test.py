@@ -59,7 +59,7 @@ class FromFiles(unittest.TestCase):
         np.testing.assert_allclose(read.lateral_m, [1.5, -2, math.nan], atol=1e-3)
         self.assertEqual(list(read.curved), [False] * 3)
         self.assertEqual((read.map_kb_per_m, read.map_length_m), (2.5, 40))
-        self.assertEqual(tables.figure_cells([read]), [0.4, np.std([0.5, 0.3]), 0.5, 2.5, 2, 3])
+        self.assertEqual(tables.figure_cells([read]), [0.4, np.std([0.5, 0.3]), 0.5, 0.4, 2.5, 2, 3])
 
     def test_tracklets_a_metre(self):
         self.assertEqual(tracklets_per_m(self.folder / "drive.map"), 2.0)
@@ -75,7 +75,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(table.rows[0][:2], ["wisurf", 2.0])
         self.assertEqual(table.rows[0][-4:], [3.71, 1.68, 4.61, 1.42])
         self.assertAlmostEqual(table.rows[1][1], 0.3)
-        self.assertEqual(table.rows[1][5:7], [3, 4])
+        self.assertEqual(table.rows[1][6:8], [3, 4])
         self.assertEqual(table.rows[1][-4:], [None] * 4)
 
     def test_the_same_cells_in_every_form(self):

@@ -132,7 +132,7 @@ class Cache:
         began = time.monotonic()
         processor_seconds = self.call(stage, words, partial / LOG)
         if self.key(stage, digest_of_files) != key:
-            raise LabError(f"{stage.kind} {stage.name}: the program or what it reads was changed while it ran; call again")
+            raise LabError(f"{stage.kind} {stage.name}: the program or what it reads changed while it ran; call again")
         self.say(f"{stage.kind} {stage.name}: {time.monotonic() - began:.0f} s")
         record = {"command": words, "processor_seconds": round(processor_seconds, 3)}
         (partial / RECORD).write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")

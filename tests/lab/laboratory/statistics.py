@@ -19,6 +19,7 @@ class Figures:
     mean_m: float
     std_m: float  # of the absolute errors, as the paper tells it
     max_m: float
+    median_m: float
     localized: int
     frames: int
 
@@ -28,9 +29,9 @@ def figures_of(fixes):
     absolute_m = np.concatenate([each.absolute_m for each in fixes]) if fixes else np.array([])
     frames = sum(len(each.error_m) for each in fixes)
     if not len(absolute_m):
-        return Figures(math.nan, math.nan, math.nan, 0, frames)
+        return Figures(math.nan, math.nan, math.nan, math.nan, 0, frames)
     return Figures(float(absolute_m.mean()), float(absolute_m.std()), float(absolute_m.max()),
-                   len(absolute_m), frames)
+                   float(np.median(absolute_m)), len(absolute_m), frames)
 
 
 def kb_per_m(fixes):
