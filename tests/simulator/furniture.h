@@ -2,15 +2,9 @@
 #pragma once
 
 #include "tests/simulator/scene.h"
+#include "tests/simulator/site.h"
 
 namespace milepost::simulator {
-
-// A place beside a road: on the ground, with the road's direction and the side that faces it.
-struct Standing {
-  Point foot;
-  cv::Vec2d forward;  // unit vector along the road
-  cv::Vec2d to_road;  // unit vector across, towards the road
-};
 
 void add_lamp(Scene& scene, const Standing& at, cv::RNG& random);
 void add_traffic_sign(Scene& scene, const Standing& at, cv::RNG& random);

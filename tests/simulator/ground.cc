@@ -13,7 +13,6 @@ namespace {
 
 const cv::Vec3f kMarking(205, 212, 213);
 const cv::Vec3f kKerb(150, 155, 157);
-constexpr double kKerbM = 0.16;
 constexpr double kCrossingM = 3.2;     // length of a zebra crossing along the road
 constexpr double kCrossingGapM = 3.0;  // from the junction
 constexpr double kManholeRadiusM = 0.33;

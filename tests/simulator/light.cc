@@ -31,11 +31,10 @@ Light noon_light() {
 }
 
 Light afternoon_light() {
-  Light light;
-  light.sun_azimuth_deg = 232;
-  light.sun_elevation_deg = 38;
-  light.sun = {0.86F, 1.14F, 1.36F};
-  light.cloud_cover = 0.55F;
+  Light light = noon_light();
+  light.sun_azimuth_deg = 193;
+  light.sun_elevation_deg = 47;
+  light.sun = {0.98F, 1.15F, 1.29F};
   light.clouds_seed = 3;
   return light;
 }

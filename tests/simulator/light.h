@@ -23,7 +23,7 @@ struct Light {
 // Hours that drives are driven at.
 Light morning_light();    // low sun from the east
 Light noon_light();       // high sun, the mapping drive's
-Light afternoon_light();  // warm sun from the south-west
+Light afternoon_light();  // two hours later
 Light overcast_light();   // hardly a shadow
 
 }  // namespace milepost::simulator

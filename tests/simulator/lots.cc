@@ -10,8 +10,6 @@ namespace {
 
 using Outline = std::array<cv::Vec2d, 4>;
 
-constexpr double kKerbM = 0.16;
-
 // Whether one side of `a` parts the two outlines.
 bool is_parted_by(const Outline& a, const Outline& b) {
   for (int i = 0; i < 4; ++i) {

@@ -34,6 +34,8 @@ struct Road {
   Frontage frontage_at(double along_m) const;
 };
 
+// Of the kerbstones between a carriageway and its pavement.
+inline constexpr double kKerbM = 0.16;
 double pavement_width_m(Frontage frontage);
 
 // A place where the carriageway of one road opens onto another's.

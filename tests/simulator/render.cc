@@ -100,7 +100,7 @@ class Shader {
     const double direct =
         is_leaf ? surface.translucency + (1 - surface.translucency) * std::max(facing, 0.0)
                 : std::max(facing, 0.0);
-    float sun = static_cast<float>(direct);
+    auto sun = static_cast<float>(direct);
     if (sun > 0 && !surface.is_distant) sun *= lighting_.shadows->sunlight(point, normal);
     for (const Shade& shade : moving_.shades) {
       if (sun > 0 && is_shaded(shade, point, to_sun_)) sun = 0;

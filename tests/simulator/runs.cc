@@ -78,7 +78,7 @@ RunPlan easy_query(const Leg& leg, double length_m, std::uint64_t seed) {
 RunPlan lane_query(const Leg& leg, double length_m, std::uint64_t seed) {
   RunPlan run = query_run(leg, length_m, seed);
   run.name = run.route + "-query-lane";
-  run.says = "afternoon sun; over to the other lane and back";
+  run.says = "two hours later; over to the other lane and back";
   run.motion.cruise_mps *= 1.1;
   run.motion.lateral_m = -0.3;
   run.motion.wander_m = 0.15;
