@@ -42,6 +42,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::vector<int> size_px = {600, 500};
   std::vector<double> view_deg = {80, 64};
+  double map_spacing_m = 2;
   double position_noise_m = 0;
   std::string ortho;
   std::string walls;
@@ -68,6 +69,10 @@ void add_options(CLI::App& app, Options& options) {
       ->expected(2)
       ->check(CLI::Range(5.0, 150.0))
       ->option_text("H V");
+  app.add_option("--map-spacing-m", options.map_spacing_m,
+                 "Distance between the frames of the map drives [2]")
+      ->check(CLI::Range(0.1, 100.0))
+      ->option_text("M");
   app.add_option("--position-noise-m", options.position_noise_m,
                  "Standard deviation, on each axis, of the map drives' positions [0]")
       ->check(CLI::Range(0.0, 20.0))
@@ -125,7 +130,10 @@ Result<std::vector<RunPlan>> chosen_runs(const Options& options, const std::vect
                : holds(options.routes, run.route) || holds(options.drives, run.name);
     if (!is_chosen) continue;
     run.camera = camera_of(options);
-    if (run.spacing_m > 0) run.position_noise_m = options.position_noise_m;
+    if (run.spacing_m > 0) {  // the mapping drive
+      run.spacing_m = options.map_spacing_m;
+      run.position_noise_m = options.position_noise_m;
+    }
     runs.push_back(std::move(run));
   }
   return runs;

@@ -48,6 +48,19 @@ TEST(SimulatorCommand, WritesADriveOfEachNameAndSaysNothingInAPipe) {
   }
 }
 
+TEST(SimulatorCommand, MapsAtTheSpacingThatIsAskedFor) {
+  const testing::TempFolder folder;
+  const std::string drives = folder.path().string();
+  ASSERT_EQ(run_simulator("--out " + drives +
+                          " --drive street-map --length-m 10 --map-spacing-m 0.5 --camera-px 60 50")
+                .exit_code,
+            0);
+  const Result<Drive> drive = read_drive(folder / "street-map");
+  ASSERT_TRUE(drive.ok()) << drive.error().line();
+  EXPECT_EQ(drive->frames.size(), 20U);
+  EXPECT_NEAR(geodesic_distance_m(drive->frames[3].position, drive->frames[4].position), 0.5, 0.01);
+}
+
 TEST(SimulatorCommand, ListsEveryRouteWithItsMapAndQuery) {
   const Outcome outcome = run_simulator("--list");
   EXPECT_EQ(outcome.exit_code, 0);
@@ -62,7 +75,7 @@ TEST(SimulatorCommand, Teaches) {
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* option :
        {"--out", "--route", "--drive", "--list", "--length-m", "--seed", "--ortho", "--walls",
-        "--position-noise-m", "--camera-px", "--view-deg", "NAME-map"}) {
+        "--position-noise-m", "--map-spacing-m", "--camera-px", "--view-deg", "NAME-map"}) {
     EXPECT_THAT(outcome.output, HasSubstr(option));
   }
 }

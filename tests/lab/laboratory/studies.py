@@ -63,8 +63,8 @@ STUDIES = {study.name: study for study in (
           "Fewer tracklets because each must have been seen in more frames (3, 4, 5, 6, 8, 10, from right to left).",
           "--min-observations", (3, 4, 5, 6, 8, 10), 3, "tracklets a metre", measured_tracklets_per_m),
     Study("spacing", "Error against map frame spacing",
-          "Map frames nearer to the last one than 1, 2, 3, 4, 5 m are passed over; drawn at the spacing that remains.",
-          "--min-frame-spacing-m", (1, 2, 3, 4, 5), 0.3, "distance of map frames (m)", measured_spacing_m),
+          "Map frames nearer to the last one than 0.9, 1.9, 2.9, 3.9, 4.9 m are passed over; drawn at the spacing that "
+          "remains.", "--min-frame-spacing-m", (0.9, 1.9, 2.9, 3.9, 4.9), 0.3, "distance of map frames (m)", measured_spacing_m),
 )}
 NAMES = (*STUDIES, "lateral")
 
