@@ -45,7 +45,8 @@ class PaperTracker : public Tracker {
   bool advance(double timestamp_s, const std::optional<Measurement>& measurement) override {
     const Instant latest = {filter_->belief().along_m, latest_s_};
     filter_->predict(step_to(timestamp_s), settings_.sigma_w_m);
-    if (measurement) {
+    const bool is_measured = measurement && measurement->support >= settings_.min_support;
+    if (is_measured) {
       const bool visual_only =
           settings_.filter == PaperFilter::none || frames_ < settings_.first_frames;
       if (visual_only) {
@@ -57,7 +58,7 @@ class PaperTracker : public Tracker {
     }
     before_ = latest;
     latest_s_ = timestamp_s;
-    return measurement.has_value();
+    return is_measured;
   }
 
   TrackedPosition position() const override {

@@ -48,6 +48,9 @@ struct PaperTrackerSettings {
   double weight_within = 0.1;           // of the measurement's variance up to the threshold
   double weight_beyond = 1;             // ... and beyond it
   int first_frames = 3;                 // by visual estimates only
+  // A frame that fewer tracklets speak for is carried by Eq. 16: section 4.2.3 says of few matches
+  // that their error is high and their variance does not show it.
+  int min_support = 10;
   std::size_t particles = 4000;         // section 5.4
   std::uint64_t seed = 1;               // of the particles' draws
 };

@@ -54,6 +54,19 @@ TEST(PaperTracker, TrustsTheMotionModelMoreBeyondTheThreshold) {  // section 4.2
   EXPECT_LT(after(1.1), 0.5);
 }
 
+TEST(PaperTracker, AFrameOfFewTrackletsIsCarriedByTheMotionModel) {  // section 4.2.3
+  for (const PaperFilter filter : {PaperFilter::none, PaperFilter::kalman}) {
+    PaperTrackerSettings settings;
+    settings.filter = filter;
+    settings.min_support = 10;
+    const auto tracker = make_paper_tracker(settings);
+    tracker->start(0, {100, 0.5, 20});
+    EXPECT_TRUE(tracker->advance(0.2, Measurement{102, 0.5, 10}));
+    EXPECT_FALSE(tracker->advance(0.4, Measurement{101, 0.1, 9}));
+    EXPECT_DOUBLE_EQ(tracker->position().along_m, 104);
+  }
+}
+
 TEST(PaperTracker, CarriesOnByTheMotionModel) {  // Eq. 16
   const auto tracker = make_paper_tracker({});
   tracker->start(0, {100, 0.5, 20});
