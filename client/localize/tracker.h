@@ -51,8 +51,8 @@ struct PaperTrackerSettings {
   // A frame that fewer tracklets speak for is carried by Eq. 16: section 4.2.3 says of few matches
   // that their error is high and their variance does not show it.
   int min_support = 10;
-  std::size_t particles = 4000;         // section 5.4
-  std::uint64_t seed = 1;               // of the particles' draws
+  std::size_t particles = 4000;  // section 5.4
+  std::uint64_t seed = 1;        // of the particles' draws
 };
 std::unique_ptr<Tracker> make_paper_tracker(const PaperTrackerSettings& settings);
 
