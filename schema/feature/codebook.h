@@ -28,7 +28,8 @@ class Codebook {
   // The principal axes of the descriptors' RootSIFT, which has length 1. `step` is the length of
   // one unit of every axis: one for all, so that axes of little variance cost few bits once the
   // tile is compressed. The same descriptors in the same order give the same codebook.
-  // REQUIRES: step > 0. Axes without variance (too few descriptors) are zero.
+  // REQUIRES: step > 0. Axes without variance (too few descriptors) are zero. Defined in
+  // milepost::feature (Eigen); the rest is in milepost::feature_types.
   static Codebook trained(std::span<const Descriptor> descriptors, double step);
 
   // A JSON object; from_json(to_json()) gives the same codebook to the bit.
@@ -36,6 +37,7 @@ class Codebook {
   std::string to_json() const;
   static Result<Codebook> from_json(const std::string& text);
 
+  // Saturates where a coordinate is beyond 8 bits. Sums whole numbers: the same on every machine.
   CompactDescriptor compact(const Descriptor& descriptor) const;
   double step() const { return step_; }
 
@@ -46,7 +48,8 @@ class Codebook {
 
   double step_ = 0;
   std::array<std::uint8_t, kDescriptorBytes> mean_{};  // of RootSIFT, in 1/255
-  std::array<std::array<std::int8_t, kDescriptorBytes>, kCompactValues> axes_{};  // in 1/127
+  // In 1/127: for each value of a descriptor its component of every axis.
+  std::array<std::array<std::int8_t, kCompactValues>, kDescriptorBytes> axes_{};
 };
 
 }  // namespace milepost

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "schema/tile/columns.h"
+#include "schema/tile/landmark_steps.h"
+#include "schema/tile/landmark_tile_generated.h"
+#include "schema/tile/table.h"
+
+namespace milepost {
+namespace {
+
+constexpr const char* kWrongTable =
+    "the content is no verified FlatBuffer with the identifier MPL1";
+
+std::vector<LandmarkSteps> all_steps_of(const LandmarkTile& tile) {
+  std::vector<LandmarkSteps> all;
+  all.reserve(tile.landmarks.size());
+  for (const Landmark& landmark : tile.landmarks) {
+    all.push_back(steps_of(landmark, tile.origin_m));
+  }
+  return all;
+}
+
+// The first value of every landmark's descriptor, then the second of all, and so on: zstd finds
+// more where values of one variance are neighbours.
+std::vector<std::int8_t> descriptor_planes(const std::vector<LandmarkSteps>& landmarks) {
+  std::vector<std::int8_t> planes;
+  planes.reserve(landmarks.size() * kCompactValues);
+  for (std::size_t k = 0; k < kCompactValues; ++k) {
+    for (const LandmarkSteps& landmark : landmarks) planes.push_back(landmark.descriptor[k]);
+  }
+  return planes;
+}
+
+// REQUIRES: the landmarks are sorted by where they begin.
+std::vector<std::uint16_t> begins_after_the_one_before(
+    const std::vector<LandmarkSteps>& landmarks) {
+  std::uint16_t before_dm = 0;
+  return column<std::uint16_t>(landmarks, [&before_dm](auto& landmark) {
+    const auto after_dm = static_cast<std::uint16_t>(landmark.begin_dm - before_dm);
+    before_dm = landmark.begin_dm;
+    return after_dm;
+  });
+}
+
+flatbuffers::Offset<fbs::LandmarkTile> build_table(flatbuffers::FlatBufferBuilder& builder,
+                                                   const LandmarkTile& tile) {
+  const std::vector<LandmarkSteps> landmarks = all_steps_of(tile);
+  const auto bytes = [&](auto value_of) {
+    return builder.CreateVector(column<std::uint8_t>(landmarks, value_of));
+  };
+  const auto shorts = [&](auto value_of) {
+    return builder.CreateVector(column<std::int16_t>(landmarks, value_of));
+  };
+  // Named one by one: as arguments of one call their order in the bytes would be the compiler's.
+  const auto segment = builder.CreateString(tile.segment);
+  const auto descriptors = builder.CreateVector(descriptor_planes(landmarks));
+  const auto east = shorts([](auto& landmark) { return landmark.east_cm; });
+  const auto north = shorts([](auto& landmark) { return landmark.north_cm; });
+  const auto up = shorts([](auto& landmark) { return landmark.up_cm; });
+  const auto depth_sigma = bytes([](auto& landmark) { return landmark.depth_sigma; });
+  const auto size = bytes([](auto& landmark) { return landmark.size; });
+  const auto size_sigma = bytes([](auto& landmark) { return landmark.size_sigma; });
+  const auto begin = builder.CreateVector(begins_after_the_one_before(landmarks));
+  const auto length = builder.CreateVector(
+      column<std::uint16_t>(landmarks, [](auto& landmark) { return landmark.length_dm; }));
+  const auto observations = bytes([](auto& landmark) { return landmark.observations; });
+  return fbs::CreateLandmarkTile(builder, segment, tile.index, tile.origin_m, kCompactValues,
+                                 descriptors, east, north, up, depth_sigma, size, size_sigma, begin,
+                                 length, observations);
+}
+
+// Whether every array has a value for each landmark, no more and no fewer.
+Status check_arrays(const fbs::LandmarkTile& table, const std::string& where) {
+  const std::size_t count = table.observations()->size();
+  if (count > kMaxLandmarksPerTile) return broken_tile(where, "more than 65536 landmarks", "5.3");
+  const Status lengths = check_lengths(where, {"observations", count},
+                                       {
+                                           {"east_cm", table.east_cm()->size()},
+                                           {"north_cm", table.north_cm()->size()},
+                                           {"up_cm", table.up_cm()->size()},
+                                           {"depth_sigma", table.depth_sigma()->size()},
+                                           {"size", table.size()->size()},
+                                           {"size_sigma", table.size_sigma()->size()},
+                                           {"begin_dm", table.begin_dm()->size()},
+                                           {"length_dm", table.length_dm()->size()},
+                                       },
+                                       "5.3");
+  if (!lengths.ok()) return lengths;
+  if (table.descriptor_values() != kCompactValues) {
+    return broken_tile(where, "a descriptor is not of 32 values", "5.4");
+  }
+  if (table.descriptors()->size() != count * kCompactValues) {
+    return broken_tile(where, "the length of descriptors is not 32 times that of observations",
+                       "5.4");
+  }
+  return ok_status();
+}
+
+// The landmark `i`. REQUIRES: check_arrays holds.
+LandmarkSteps steps_at(const fbs::LandmarkTile& table, flatbuffers::uoffset_t i,
+                       std::uint16_t begin_dm) {
+  LandmarkSteps steps;
+  const flatbuffers::uoffset_t count = table.observations()->size();
+  for (flatbuffers::uoffset_t k = 0; k < kCompactValues; ++k) {
+    steps.descriptor[k] = table.descriptors()->Get(k * count + i);
+  }
+  steps.east_cm = table.east_cm()->Get(i);
+  steps.north_cm = table.north_cm()->Get(i);
+  steps.up_cm = table.up_cm()->Get(i);
+  steps.depth_sigma = table.depth_sigma()->Get(i);
+  steps.size = table.size()->Get(i);
+  steps.size_sigma = table.size_sigma()->Get(i);
+  steps.begin_dm = begin_dm;
+  steps.length_dm = table.length_dm()->Get(i);
+  steps.observations = table.observations()->Get(i);
+  return steps;
+}
+
+Status check_landmark(const LandmarkSteps& steps, const std::string& where) {
+  if (steps.size_sigma > kSizeSigmaUnits) {
+    return broken_tile(where, "the size sigma is above 1", "5.6");
+  }
+  if (steps.observations < 3) return broken_tile(where, "fewer than 3 observations", "5.8");
+  return ok_status();
+}
+
+}  // namespace
+
+Bytes table_from_landmarks(const LandmarkTile& tile) {
+  flatbuffers::FlatBufferBuilder builder;
+  fbs::FinishSizePrefixedLandmarkTileBuffer(builder, build_table(builder, tile));
+  return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
+}
+
+Result<LandmarkTile> landmarks_from_table(ByteView bytes) {
+  flatbuffers::Verifier verifier(bytes.data(), bytes.size());
+  if (!fbs::VerifySizePrefixedLandmarkTileBuffer(verifier))
+    return broken_tile("tile", kWrongTable, "5.2");
+  const fbs::LandmarkTile& table = *fbs::GetSizePrefixedLandmarkTile(bytes.data());
+  Status status = check_head(table.segment()->string_view(), table.origin_m());
+  if (!status.ok()) return status.error();
+  const std::string where = "tile " + table.segment()->str() + "/" + std::to_string(table.index());
+  status = check_arrays(table, where);
+  if (!status.ok()) return status.error();
+
+  LandmarkTile tile{table.segment()->str(), table.index(), table.origin_m(), {}};
+  const flatbuffers::uoffset_t count = table.observations()->size();
+  tile.landmarks.reserve(count);
+  std::uint32_t begin_dm = 0;
+  for (flatbuffers::uoffset_t i = 0; i < count; ++i) {
+    const std::string place = where + ", landmark " + std::to_string(i);
+    begin_dm += table.begin_dm()->Get(i);
+    if (begin_dm > std::numeric_limits<std::uint16_t>::max()) {
+      return broken_tile(place, "it begins more than 6553.5 m after the origin", "5.7");
+    }
+    const LandmarkSteps steps = steps_at(table, i, static_cast<std::uint16_t>(begin_dm));
+    status = check_landmark(steps, place);
+    if (!status.ok()) return status.error();
+    tile.landmarks.push_back(landmark_of(steps, tile.origin_m));
+    if (!(tile.landmarks.back().along.to_m <= kMaxAlongM)) {
+      return broken_tile(place, "the along range is not one of alongs", "5.7");
+    }
+  }
+  return tile;
+}
+
+}  // namespace milepost
