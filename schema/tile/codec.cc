@@ -24,7 +24,8 @@ Bytes encode_observations(const ObservationTile& tile) {
 Bytes encode_frames(const FrameTile& tile) { return compress_frame(table_from_frames(tile)); }
 
 Bytes encode_landmarks(const LandmarkTile& tile) {
-  return compress_frame(table_from_landmarks(tile));
+  const Bytes table = table_from_landmarks(tile);
+  return compress_frame(table, landmark_array_starts(table));
 }
 
 Result<TrackletTile> decode_tile(ByteView frame) { return decode(frame, tile_from_table); }

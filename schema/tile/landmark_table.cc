@@ -13,6 +13,9 @@ namespace {
 constexpr const char* kWrongTable =
     "the content is no verified FlatBuffer with the identifier MPL1";
 
+constexpr std::int16_t LandmarkSteps::*kCoordinates[] = {
+    &LandmarkSteps::east_cm, &LandmarkSteps::north_cm, &LandmarkSteps::up_cm};
+
 std::vector<LandmarkSteps> all_steps_of(const LandmarkTile& tile) {
   std::vector<LandmarkSteps> all;
   all.reserve(tile.landmarks.size());
@@ -22,13 +25,23 @@ std::vector<LandmarkSteps> all_steps_of(const LandmarkTile& tile) {
   return all;
 }
 
-// The first value of every landmark's descriptor, then the second of all, and so on: zstd finds
-// more where values of one variance are neighbours.
 std::vector<std::int8_t> descriptor_planes(const std::vector<LandmarkSteps>& landmarks) {
   std::vector<std::int8_t> planes;
   planes.reserve(landmarks.size() * kCompactValues);
   for (std::size_t k = 0; k < kCompactValues; ++k) {
     for (const LandmarkSteps& landmark : landmarks) planes.push_back(landmark.descriptor[k]);
+  }
+  return planes;
+}
+
+// The bytes of the coordinates that begin at bit `shift`.
+Bytes position_planes(const std::vector<LandmarkSteps>& landmarks, int shift) {
+  Bytes planes;
+  planes.reserve(landmarks.size() * std::size(kCoordinates));
+  for (const auto coordinate_cm : kCoordinates) {
+    for (const LandmarkSteps& landmark : landmarks) {
+      planes.push_back(static_cast<std::uint8_t>(landmark.*coordinate_cm >> shift));
+    }
   }
   return planes;
 }
@@ -50,15 +63,11 @@ flatbuffers::Offset<fbs::LandmarkTile> build_table(flatbuffers::FlatBufferBuilde
   const auto bytes = [&](auto value_of) {
     return builder.CreateVector(column<std::uint8_t>(landmarks, value_of));
   };
-  const auto shorts = [&](auto value_of) {
-    return builder.CreateVector(column<std::int16_t>(landmarks, value_of));
-  };
   // Named one by one: as arguments of one call their order in the bytes would be the compiler's.
-  const auto segment = builder.CreateString(tile.segment);
+  // The last comes first in the bytes.
   const auto descriptors = builder.CreateVector(descriptor_planes(landmarks));
-  const auto east = shorts([](auto& landmark) { return landmark.east_cm; });
-  const auto north = shorts([](auto& landmark) { return landmark.north_cm; });
-  const auto up = shorts([](auto& landmark) { return landmark.up_cm; });
+  const auto position_low = builder.CreateVector(position_planes(landmarks, 0));
+  const auto position_high = builder.CreateVector(position_planes(landmarks, 8));
   const auto depth_sigma = bytes([](auto& landmark) { return landmark.depth_sigma; });
   const auto size = bytes([](auto& landmark) { return landmark.size; });
   const auto size_sigma = bytes([](auto& landmark) { return landmark.size_sigma; });
@@ -66,9 +75,10 @@ flatbuffers::Offset<fbs::LandmarkTile> build_table(flatbuffers::FlatBufferBuilde
   const auto length = builder.CreateVector(
       column<std::uint16_t>(landmarks, [](auto& landmark) { return landmark.length_dm; }));
   const auto observations = bytes([](auto& landmark) { return landmark.observations; });
+  const auto segment = builder.CreateString(tile.segment);
   return fbs::CreateLandmarkTile(builder, segment, tile.index, tile.origin_m, kCompactValues,
-                                 descriptors, east, north, up, depth_sigma, size, size_sigma, begin,
-                                 length, observations);
+                                 descriptors, position_low, position_high, depth_sigma, size,
+                                 size_sigma, begin, length, observations);
 }
 
 // Whether every array has a value for each landmark, no more and no fewer.
@@ -77,9 +87,6 @@ Status check_arrays(const fbs::LandmarkTile& table, const std::string& where) {
   if (count > kMaxLandmarksPerTile) return broken_tile(where, "more than 65536 landmarks", "5.3");
   const Status lengths = check_lengths(where, {"observations", count},
                                        {
-                                           {"east_cm", table.east_cm()->size()},
-                                           {"north_cm", table.north_cm()->size()},
-                                           {"up_cm", table.up_cm()->size()},
                                            {"depth_sigma", table.depth_sigma()->size()},
                                            {"size", table.size()->size()},
                                            {"size_sigma", table.size_sigma()->size()},
@@ -95,6 +102,10 @@ Status check_arrays(const fbs::LandmarkTile& table, const std::string& where) {
     return broken_tile(where, "the length of descriptors is not 32 times that of observations",
                        "5.4");
   }
+  for (const auto* planes : {table.position_low(), table.position_high()}) {
+    if (planes->size() == count * std::size(kCoordinates)) continue;
+    return broken_tile(where, "the positions are not 3 times as many as observations", "5.5");
+  }
   return ok_status();
 }
 
@@ -106,9 +117,12 @@ LandmarkSteps steps_at(const fbs::LandmarkTile& table, flatbuffers::uoffset_t i,
   for (flatbuffers::uoffset_t k = 0; k < kCompactValues; ++k) {
     steps.descriptor[k] = table.descriptors()->Get(k * count + i);
   }
-  steps.east_cm = table.east_cm()->Get(i);
-  steps.north_cm = table.north_cm()->Get(i);
-  steps.up_cm = table.up_cm()->Get(i);
+  flatbuffers::uoffset_t at = i;
+  for (const auto coordinate_cm : kCoordinates) {
+    steps.*coordinate_cm = static_cast<std::int16_t>(table.position_low()->Get(at) |
+                                                     table.position_high()->Get(at) << 8);
+    at += count;
+  }
   steps.depth_sigma = table.depth_sigma()->Get(i);
   steps.size = table.size()->Get(i);
   steps.size_sigma = table.size_sigma()->Get(i);
@@ -132,6 +146,15 @@ Bytes table_from_landmarks(const LandmarkTile& tile) {
   flatbuffers::FlatBufferBuilder builder;
   fbs::FinishSizePrefixedLandmarkTileBuffer(builder, build_table(builder, tile));
   return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
+}
+
+std::vector<std::size_t> landmark_array_starts(ByteView bytes) {
+  const fbs::LandmarkTile& table = *fbs::GetSizePrefixedLandmarkTile(bytes.data());
+  const auto start_of = [&](const auto* array) {
+    return static_cast<std::size_t>(array->Data() - bytes.data());
+  };
+  return {start_of(table.position_high()), start_of(table.position_low()),
+          start_of(table.descriptors())};
 }
 
 Result<LandmarkTile> landmarks_from_table(ByteView bytes) {

@@ -20,6 +20,9 @@ Bytes table_from_observations(const ObservationTile& tile);
 Bytes table_from_frames(const FrameTile& tile);
 Bytes table_from_landmarks(const LandmarkTile& tile);
 
+// Where in a table of table_from_landmarks its three arrays of planes begin, ascending.
+std::vector<std::size_t> landmark_array_starts(ByteView bytes);
+
 // Never trusts a byte. REQUIRES: the bytes are aligned to 8.
 // Errors: corrupt, naming the paragraph broken.
 Result<TrackletTile> tile_from_table(ByteView bytes);
