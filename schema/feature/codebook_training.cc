@@ -30,7 +30,8 @@ Vector mean_of(std::span<const Descriptor> descriptors) {
 Matrix covariance_of(std::span<const Descriptor> descriptors, const Vector& mean) {
   Matrix sum = Matrix::Zero();
   for (const Descriptor& descriptor : descriptors) {
-    sum.selfadjointView<Eigen::Lower>().rankUpdate(root_sift_vector(descriptor) - mean);
+    const Vector centred = root_sift_vector(descriptor) - mean;
+    sum.noalias() += centred * centred.transpose();
   }
   return sum / std::max<double>(1, static_cast<double>(descriptors.size()));
 }
