@@ -6,8 +6,10 @@ Result<std::unique_ptr<Follower>> make_follower(const SegmentSession& session,
                                                 const QueryCamera& camera,
                                                 const LocalizerSettings& settings) {
   const auto* tracklets = std::get_if<TrackletMethod>(&settings.method.how);
-  const bool of_frames = session.items == LayerItems::frames;
-  if (of_frames != (tracklets == nullptr)) {
+  const bool of_tracklets =
+      session.items == LayerItems::tracklets || session.items == LayerItems::observations;
+  const bool usable = tracklets ? of_tracklets : session.items == LayerItems::frames;
+  if (!usable) {
     return Error{ErrorCode::corrupt,
                  "map '" + session.layer.version.map + "', layer '" + session.layer.layer + "'",
                  std::string("the method cannot use its ") + name_of(session.items),

@@ -29,12 +29,16 @@ const char* name_of(FixStatus status);
 struct Fix {
   double timestamp_s = 0;
   FixStatus status = FixStatus::initializing;
-  MapVersion version;                // empty unless a segment is known
-  std::string segment;               // empty unless known
-  std::optional<double> along_m;     // [0, length of the segment]
-  double sigma_m = 0;                // one standard deviation, with along_m
-  std::optional<GeoPoint> position;  // of along_m on the segment's line
-  int matches = 0;                   // features that agreed on the measurement
+  MapVersion version;             // empty unless a segment is known
+  std::string segment;            // empty unless known
+  std::optional<double> along_m;  // [0, length of the segment]
+  double sigma_m = 0;             // one standard deviation, with along_m
+  // Only of methods that know the camera's pose, not just its along:
+  std::optional<double> lateral_m;        // from the segment's line, positive to the right
+  std::optional<double> lateral_sigma_m;  // one standard deviation
+  std::optional<double> heading_deg;      // of the camera, clockwise from north, [0, 360)
+  std::optional<GeoPoint> position;       // of along_m on the segment's line
+  int matches = 0;                        // features that agreed on the measurement
 };
 
 // A coarse position, of a receiver of satellite signals.

@@ -1,5 +1,7 @@
 #include "mapper/build/layer_builder.h"
 
+#include <stdexcept>
+
 #include "mapper/tiles/tile_assembler.h"
 #include "schema/tile/codec.h"
 
@@ -111,6 +113,8 @@ std::unique_ptr<LayerBuilder> make_layer_builder(const Layer& layer, const std::
       return std::make_unique<ObservationLayerBuilder>(layer.regression, segment, tile_length_m);
     case LayerItems::frames:
       return std::make_unique<FrameLayerBuilder>(layer.parts, segment, tile_length_m);
+    case LayerItems::landmarks:
+      throw std::logic_error("no layer of layers_of() holds landmarks");
     case LayerItems::tracklets:
       break;
   }

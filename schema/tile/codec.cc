@@ -23,6 +23,11 @@ Bytes encode_observations(const ObservationTile& tile) {
 
 Bytes encode_frames(const FrameTile& tile) { return compress_frame(table_from_frames(tile)); }
 
+Bytes encode_landmarks(const LandmarkTile& tile) {
+  const Bytes table = table_from_landmarks(tile);
+  return compress_frame(table, landmark_array_starts(table));
+}
+
 Result<TrackletTile> decode_tile(ByteView frame) { return decode(frame, tile_from_table); }
 
 Result<ObservationTile> decode_observations(ByteView frame) {
@@ -30,6 +35,10 @@ Result<ObservationTile> decode_observations(ByteView frame) {
 }
 
 Result<FrameTile> decode_frames(ByteView frame) { return decode(frame, frames_from_table); }
+
+Result<LandmarkTile> decode_landmarks(ByteView frame) {
+  return decode(frame, landmarks_from_table);
+}
 
 Result<std::size_t> stored_frame_length(ByteView stream) { return frame_length(stream); }
 

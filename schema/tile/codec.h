@@ -1,10 +1,11 @@
 // Tiles to bytes and back: FlatBuffers (tile.fbs and its siblings), size-prefixed, in one zstd
-// frame with checksum. FORMAT.md 3 and 4 are the layout; messages name their paragraphs.
+// frame with checksum. FORMAT.md 3 to 5 are the layout; messages name their paragraphs.
 #pragma once
 
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
 #include "schema/tile/database_frame.h"
+#include "schema/tile/landmark.h"
 #include "schema/tile/observation.h"
 #include "schema/tile/tracklet.h"
 
@@ -15,11 +16,13 @@ namespace milepost {
 Bytes encode_tile(const TrackletTile& tile);
 Bytes encode_observations(const ObservationTile& tile);
 Bytes encode_frames(const FrameTile& tile);
+Bytes encode_landmarks(const LandmarkTile& tile);
 
 // The tile of one stored frame. Never trusts a byte. Errors: corrupt, naming the paragraph broken.
 Result<TrackletTile> decode_tile(ByteView frame);
 Result<ObservationTile> decode_observations(ByteView frame);
 Result<FrameTile> decode_frames(ByteView frame);
+Result<LandmarkTile> decode_landmarks(ByteView frame);
 
 // The length of the zstd frame at the start of `stream`, so that a range answer can be cut into
 // tiles; 0 if the stream ends inside the frame. Errors: corrupt (the stream is not a zstd frame).

@@ -13,6 +13,7 @@ namespace milepost {
 namespace {
 
 constexpr int kCompressionLevel = 19;
+constexpr std::size_t kBlockHeaderBytes = 3;
 constexpr std::size_t kMaxFrameBytes = ZSTD_COMPRESSBOUND(kMaxTileContentBytes);
 constexpr std::array<std::uint8_t, 4> kMagic = {0x28, 0xB5, 0x2F, 0xFD};
 
@@ -47,16 +48,23 @@ struct ContextDeleter {
 
 }  // namespace
 
-Bytes compress_frame(ByteView content) {
+Bytes compress_frame(ByteView content, std::span<const std::size_t> cuts) {
   const std::unique_ptr<ZSTD_CCtx, ContextDeleter> context(ZSTD_createCCtx());
   if (!context) throw std::bad_alloc();
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
-  Bytes frame(ZSTD_compressBound(content.size()));
-  const std::size_t length =
-      ZSTD_compress2(context.get(), frame.data(), frame.size(), content.data(), content.size());
-  if (ZSTD_isError(length)) throw std::bad_alloc();  // the only way left to fail
-  frame.resize(length);
+  ZSTD_CCtx_setPledgedSrcSize(context.get(), content.size());
+  Bytes frame(ZSTD_compressBound(content.size()) + kBlockHeaderBytes * cuts.size());
+  ZSTD_outBuffer output = {frame.data(), frame.size(), 0};
+  ZSTD_inBuffer input = {content.data(), 0, 0};
+  const auto compress_up_to = [&](std::size_t end, ZSTD_EndDirective directive) {
+    input.size = end;
+    const std::size_t left = ZSTD_compressStream2(context.get(), &output, &input, directive);
+    if (left != 0) throw std::bad_alloc();  // the only way left to fail
+  };
+  for (const std::size_t cut : cuts) compress_up_to(cut, ZSTD_e_flush);
+  compress_up_to(content.size(), ZSTD_e_end);
+  frame.resize(output.pos);
   return frame;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
@@ -10,9 +11,11 @@ namespace milepost {
 
 inline constexpr std::size_t kMaxTileContentBytes = std::size_t{16} << 20U;
 
-// One frame with content size and checksum. The same content gives the same bytes.
-// REQUIRES: content.size() <= kMaxTileContentBytes.
-Bytes compress_frame(ByteView content);
+// One frame with content size and checksum. The same content gives the same bytes. A block ends at
+// each of `cuts`: worth its 50 bytes or so where the values change their distribution, for zstd has
+// one table of codes a block.
+// REQUIRES: content.size() <= kMaxTileContentBytes; cuts ascend and are within the content.
+Bytes compress_frame(ByteView content, std::span<const std::size_t> cuts = {});
 
 // The content of exactly one frame. Allocates no more than kMaxTileContentBytes.
 // Errors: corrupt, naming the paragraph broken.

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <array>
+#include <random>
+
 namespace milepost {
 namespace {
 
@@ -36,6 +39,32 @@ const Bytes kContent(1000, 'x');
 TEST(Frame, GivesBackItsContent) {
   EXPECT_EQ(*expand_frame(compress_frame(kContent)), kContent);
   EXPECT_EQ(*expand_frame(compress_frame({})), Bytes());
+}
+
+// Bytes of one distribution, then of another.
+Bytes two_halves() {
+  std::mt19937 random(3);
+  Bytes content;
+  for (int i = 0; i < 2000; ++i) content.push_back(static_cast<std::uint8_t>(random() % 4));
+  for (int i = 0; i < 2000; ++i) content.push_back(static_cast<std::uint8_t>(128 + random() % 64));
+  return content;
+}
+
+TEST(Frame, CutsMakeItSmallerButNothingElse) {
+  const Bytes content = two_halves();
+  const Bytes whole = compress_frame(content);
+  const Bytes cut = compress_frame(content, std::array<std::size_t, 1>{2000});
+  EXPECT_EQ(*expand_frame(cut), content);
+  EXPECT_LT(cut.size() + 200, whole.size());
+  EXPECT_EQ(*frame_length(cut), cut.size());
+  EXPECT_EQ(ZSTD_getFrameContentSize(cut.data(), cut.size()), 4000U);
+}
+
+TEST(Frame, TakesAnyCut) {
+  const Bytes content = two_halves();
+  const std::vector<std::size_t> cuts = {0, 0, 1, 2, 3, 3, 3999, 4000};
+  EXPECT_EQ(*expand_frame(compress_frame(content, cuts)), content);
+  EXPECT_EQ(*expand_frame(compress_frame({}, std::vector<std::size_t>{0, 0})), Bytes());
 }
 
 TEST(Frame, StatesSizeAndChecksumOfItsContent) {
