@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "schema/command/command.h"
+
 namespace milepost::server {
 namespace {
 
@@ -83,10 +85,8 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_option("--listen", listen, "Address and port to listen on; port 0 lets the system choose")
       ->required()
       ->type_name("ADDR:PORT");
-  app.add_option("--threads", options.threads, "Threads that answer requests")
-      ->check(CLI::Range(1U, kMaxThreads))
-      ->type_name("N")
-      ->capture_default_str();
+  add_number(app, "--threads", options.threads, "N", "Threads that answer requests", 1,
+             kMaxThreads);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ConfigError& error) {

@@ -163,7 +163,6 @@ int run_evaluate(const std::string& program, std::vector<std::string> words) {
       ->required()
       ->option_text("DIR");
   app.add_option("--method", options.methods, "Methods to compare: " + known)
-      ->capture_default_str()
       ->option_text("M ... [milepost]");
   app.add_flag(
       "--estimates", options.estimates,

@@ -34,8 +34,7 @@ int run_localize(const std::string& program, std::vector<std::string> words) {
       ->required()
       ->option_text("DIR");
   app.add_option("--out", out, "File to write the fixes to")->required()->option_text("FILE");
-  app.add_option("--method", method_name, "How to localize")
-      ->capture_default_str()
+  app.add_option("--method", method_name, "How to localize (default " + method_name + ")")
       ->option_text("M");
   if (const auto code = parse_words(app, std::move(words))) return *code;
   if (map.server.empty() && map.map.empty()) {

@@ -2,6 +2,7 @@
 
 #include "client/fetch/file_source.h"
 #include "client/fetch/http_source.h"
+#include "schema/command/command.h"
 
 namespace milepost {
 
@@ -15,11 +16,8 @@ void add_source_options(CLI::App& app, SourceOptions& options) {
       group->add_option("--cache", options.cache, "Folder that keeps fetched tiles")
           ->option_text("DIR");
   CLI::Option* limit =
-      group
-          ->add_option("--cache-limit-mb", options.cache_limit_mb,
-                       "Megabytes kept in the cache; the least recently used go first")
-          ->check(CLI::Range(1.0, 1e6))
-          ->capture_default_str();
+      add_number(*group, "--cache-limit-mb", options.cache_limit_mb, "MB",
+                 "Megabytes kept in the cache; the least recently used go first", 1, 1e6);
   CLI::Option* map = group->add_option("--map", options.map, "Map file to read instead of a server")
                          ->option_text("FILE");
   server->needs(cache)->excludes(map);

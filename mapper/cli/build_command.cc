@@ -14,6 +14,8 @@
 namespace milepost {
 namespace {
 
+constexpr const char* kSettings = "Settings (each changes the map)";
+
 struct BuildOptions {
   std::vector<std::string> drives;
   std::string map;
@@ -28,45 +30,44 @@ void add_options(CLI::App& app, BuildOptions& options) {
   app.add_option("--map", options.map, "Map file to write; an old one is replaced when all is done")
       ->required()
       ->option_text("FILE");
-  app.add_option("--jobs", options.jobs,
-                 "Threads that extract features; the map is the same for any number")
-      ->check(CLI::Range(1, 256))
-      ->option_text("N");
+  add_number(app, "--jobs", options.jobs, "N",
+             "Threads that extract features; the map is the same for any number", 1, 256);
   app.add_flag("--lab", options.settings.lab,
                "Add the layers that the methods to compare with need");
 
   BuildSettings& settings = options.settings;
-  const auto setting = [&app](const std::string& name, auto& value, const std::string& text,
-                              double low, double high) {
-    app.add_option("--" + name, value, text)
-        ->check(CLI::Range(low, high))
-        ->capture_default_str()
-        ->group("Settings (each changes the map)");
+  const auto setting = [&app](const std::string& name, auto& value, const std::string& unit,
+                              const std::string& text, auto low, auto high) {
+    using Number = std::remove_reference_t<decltype(value)>;
+    add_number(app, "--" + name, value, unit, text, static_cast<Number>(low),
+               static_cast<Number>(high))
+        ->group(kSettings);
   };
-  setting("max-features", settings.feature.max_features,
-          "Strongest features kept of a frame; 0: all", 0, 1e6);
-  setting("contrast-threshold", settings.feature.contrast_threshold, "SIFT's least contrast", 0, 1);
-  setting("min-r-squared", settings.regression.min_r_squared,
+  setting("max-features", settings.feature.max_features, "N",
+          "Strongest features kept of a frame; 0: all", 0, 1000000);
+  setting("contrast-threshold", settings.feature.contrast_threshold, "X", "SIFT's least contrast",
+          0, 1);
+  setting("min-r-squared", settings.regression.min_r_squared, "X",
           "Least R^2 of a tracklet's regression", 0, 1);
-  setting("min-observations", settings.follow.min_observations, "Least frames of a tracklet", 3,
-          1000);
-  setting("max-distance-ratio", settings.follow.max_distance_ratio,
+  setting("min-observations", settings.follow.min_observations, "N", "Least frames of a tracklet",
+          3, 1000);
+  setting("max-distance-ratio", settings.follow.max_distance_ratio, "X",
           "Ratio test of descriptor distances", 0.1, 1);
-  setting("search-radius-px", settings.follow.search_radius_px,
+  setting("search-radius-px", settings.follow.search_radius_px, "PX",
           "Least radius of the search area of a followed feature", 1, 500);
-  setting("tile-length-m", settings.tile_length_m, "Length of road a tile", 1, 1000);
-  setting("min-frame-spacing-m", settings.min_frame_spacing_m,
+  setting("tile-length-m", settings.tile_length_m, "M", "Length of road a tile", 1, 1000);
+  setting("min-frame-spacing-m", settings.min_frame_spacing_m, "M",
           "Frames nearer to the last one are passed over", 0.01, 100);
   app.add_option("--scale-model", settings.regression.model,
-                 "Along is linear in: inverse-scale (exact), or scale (as published)")
+                 "Along is linear in: inverse-scale (exact, default), or scale (as published)")
       ->transform(
           CLI::CheckedTransformer(
               std::map<std::string, ScaleModel>{{"inverse-scale", ScaleModel::inverse_scale},
                                                 {"scale", ScaleModel::scale}},
               CLI::ignore_case)
               .description(""))
-      ->option_text("MODEL [inverse-scale]")
-      ->group("Settings (each changes the map)");
+      ->option_text("MODEL")
+      ->group(kSettings);
 }
 
 std::string summary_line(const BuildReport& report, const std::string& map) {

@@ -2,9 +2,13 @@
 // line, progress on a terminal, a clean stop on Ctrl-C.
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <concepts>
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -27,6 +31,33 @@ struct Command {
 // Chooses the subcommand by the first word and runs it; answers --help and --version itself.
 int run_program(const std::string& program, const std::string& description,
                 const std::vector<Command>& commands, int argc, char** argv);
+
+// A number as people write it, as short as its type allows: 1000000, 0.04.
+template <class Number>
+std::string in_digits(Number number) {
+  std::array<char, 400> text{};  // the longest double is of 326 characters
+  char* const end = text.data() + text.size();
+  if constexpr (std::integral<Number>) {
+    return {text.data(), std::to_chars(text.data(), end, number).ptr};
+  } else {
+    return {text.data(), std::to_chars(text.data(), end, number, std::chars_format::fixed).ptr};
+  }
+}
+
+// Adds an option for one number from `low` to `high`. Its help says so, with the default that
+// `value` holds: "--jobs N    Threads that extract features (1 to 256, default 2)".
+// `unit` stands for the number: N, M, PX.
+template <class Number>
+CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value,
+                        const std::string& unit, const std::string& text,
+                        std::type_identity_t<Number> low, std::type_identity_t<Number> high) {
+  return app
+      .add_option(name, value,
+                  text + " (" + in_digits(low) + " to " + in_digits(high) + ", default " +
+                      in_digits(value) + ")")
+      ->check(CLI::Range(low, high))
+      ->option_text(unit);
+}
 
 // Parses `words` by `app`; the option --config (a file with one option a line, as key = value) is
 // added, in which an unknown key is an error. Returns the exit code if the command is to end here.

@@ -47,6 +47,10 @@ TEST(LayerBuilder, TheLaboratorysLayersHoldTheSameTracklets) {
   const auto tracklets = decode_tile(of_averaged->front().frame);
   const auto observations = decode_observations(of_observed->front().frame);
   ASSERT_TRUE(tracklets.ok() && observations.ok());
+  EXPECT_EQ(tracklets->segment, "s");
+  EXPECT_EQ(observations->segment, "s");
+  EXPECT_EQ(tracklets->model, ScaleModel::scale);
+  EXPECT_EQ(observations->model, ScaleModel::scale);
   ASSERT_EQ(observations->tracklets.size(), tracklets->tracklets.size());
   for (std::size_t i = 0; i < tracklets->tracklets.size(); ++i) {
     const Tracklet& a = tracklets->tracklets[i];
@@ -78,6 +82,7 @@ TEST(LayerBuilder, FramesKeepWhatTheirLayerIsFor) {
   EXPECT_EQ(of_features->front().along.to_m, 19);
   const auto featured = decode_frames(of_features->front().frame);
   ASSERT_TRUE(featured.ok());
+  EXPECT_EQ(featured->segment, "s");
   EXPECT_EQ(featured->frames[1].along_m, 19);
   EXPECT_EQ(featured->frames[1].features.features[0].scale_px, 3);
   EXPECT_FALSE(featured->frames[1].image.has_value());

@@ -22,6 +22,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 using testing::StartsWith;
 
 // A running milepost-server, with its two outputs in pipes.
@@ -103,7 +104,8 @@ TEST(ProgramTest, HelpTeaches) {
   Program program({"--help"});
   EXPECT_THAT(program.output(),
               AllOf(HasSubstr("--maps"), HasSubstr("--listen"), HasSubstr("--threads"),
-                    HasSubstr("--config"), HasSubstr("Examples:"), HasSubstr("Exit codes:")));
+                    HasSubstr("--config"), HasSubstr("Examples:"), HasSubstr("Exit codes:"),
+                    HasSubstr("(1 to 256, default "), Not(HasSubstr("UINT"))));
   EXPECT_EQ(program.wait(), 0);
 }
 

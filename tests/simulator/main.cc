@@ -57,30 +57,29 @@ void add_options(CLI::App& app, Options& options) {
       ->option_text("NAME...");
   app.add_option("--drive", options.drives, "Only these drives")->option_text("NAME...");
   app.add_flag("--list", options.list, "List routes and drives, and write nothing");
-  app.add_option("--length-m", options.length_m, "At most this much of each route")
-      ->check(CLI::Range(10.0, 10000.0))
-      ->option_text("M");
-  app.add_option("--seed", options.seed, "Seed of the town and of all noise [1]")->option_text("N");
-  app.add_option("--camera-px", options.size_px, "Width and height of the frames [600 500]")
+  add_number(app, "--length-m", options.length_m, "M", "At most this much of each route", 10,
+             10000);
+  app.add_option("--seed", options.seed, "Seed of the town and of all noise (default 1)")
+      ->option_text("N");
+  app.add_option("--camera-px", options.size_px,
+                 "Width and height of the frames (16 to 8192, default 600 500)")
       ->expected(2)
       ->check(CLI::Range(16, 8192))
       ->option_text("W H");
-  app.add_option("--view-deg", options.view_deg, "Horizontal and vertical angle of view [80 64]")
+  app.add_option("--view-deg", options.view_deg,
+                 "Horizontal and vertical angle of view (5 to 150, default 80 64)")
       ->expected(2)
       ->check(CLI::Range(5.0, 150.0))
       ->option_text("H V");
-  app.add_option("--map-spacing-m", options.map_spacing_m,
-                 "Distance between the frames of the map drives [2]")
-      ->check(CLI::Range(0.1, 100.0))
-      ->option_text("M");
-  app.add_option("--position-noise-m", options.position_noise_m,
-                 "Standard deviation, on each axis, of the map drives' positions [0]")
-      ->check(CLI::Range(0.0, 20.0))
-      ->option_text("M");
+  add_number(app, "--map-spacing-m", options.map_spacing_m, "M",
+             "Distance between the frames of the map drives", 0.1, 100);
+  add_number(app, "--position-noise-m", options.position_noise_m, "M",
+             "Standard deviation, on each axis, of the map drives' positions", 0, 20);
   app.add_option("--ortho", options.ortho, "GeoTIFF of the town, 10 cm a pixel")
       ->option_text("FILE");
   app.add_option("--walls", options.walls, "GeoJSON of the houses' outlines")->option_text("FILE");
-  app.add_option("--threads", options.threads, "Threads; the result does not depend on it [all]")
+  app.add_option("--threads", options.threads,
+                 "Threads; the result does not depend on it (1 to 256, default one a core)")
       ->check(CLI::Range(1, 256))
       ->option_text("N");
 }

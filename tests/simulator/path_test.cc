@@ -35,6 +35,33 @@ TEST(Path, IsMeasuredByArcLengthAlongItsHeading) {
   }
 }
 
+TEST(Path, HasNeitherGapsNorCorners) {
+  const Path southwards = Path::through({{{0, 0}}, {{50, -100}, 20}, {{0, -200}}});
+  constexpr double kStepM = 0.01;
+  for (const Path& path : {winding(), southwards, Path::circle({5, -3}, 12)}) {
+    for (double along_m = 0; along_m + kStepM < path.length_m(); along_m += kStepM) {
+      const cv::Vec2d step =
+          path.position_at({along_m + kStepM, 0}) - path.position_at({along_m, 0});
+      ASSERT_NEAR(cv::norm(step), kStepM, 1e-6) << along_m;
+      const double turn = path.heading_rad_at(along_m + kStepM) - path.heading_rad_at(along_m);
+      ASSERT_NEAR(std::sin(turn), 0, 1.1 * kStepM / 12) << along_m;
+    }
+  }
+}
+
+TEST(Path, ACircleRunsCounterClockwiseFromItsEasternmostPoint) {
+  const Path path = Path::circle({5, -3}, 12);
+  EXPECT_NEAR(path.length_m(), 2 * CV_PI * 12, 1e-9);
+  EXPECT_NEAR(cv::norm(path.position_at({0, 0}) - cv::Vec2d(17, -3)), 0, 1e-9);
+  EXPECT_NEAR(cv::norm(path.position_at({path.length_m() / 4, 0}) - cv::Vec2d(5, 9)), 0, 1e-9);
+}
+
+TEST(Path, GoesOnBeforeItsStartAndAfterItsEnd) {
+  const Path path = winding();
+  EXPECT_NEAR(cv::norm(path.position_at({-5, 0}) - cv::Vec2d(0, -5)), 0, 1e-9);
+  EXPECT_NEAR(cv::norm(path.position_at({path.length_m() + 5, 0}) - cv::Vec2d(205, 300)), 0, 1e-9);
+}
+
 TEST(Path, RoundsItsBendsAndEndsWhereItWasDrawnTo) {
   const Path path = winding();
   const cv::Vec2d end = path.position_at({path.length_m(), 0});

@@ -78,6 +78,7 @@ TEST(SimulatorCommand, Teaches) {
         "--position-noise-m", "--map-spacing-m", "--camera-px", "--view-deg", "NAME-map"}) {
     EXPECT_THAT(outcome.output, HasSubstr(option));
   }
+  EXPECT_THAT(outcome.output, HasSubstr("(10 to 10000, default 10000)"));
 }
 
 TEST(SimulatorCommand, RefusesAWrongCall) {

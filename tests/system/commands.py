@@ -58,6 +58,13 @@ class CommandTest(unittest.TestCase):
     def expect_done(self, result):
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    def expect_teaches(self, result, *parts):
+        """A help that holds each part, and none of the parser's own words for types and ranges."""
+        self.expect_done(result)
+        self.assertNotRegex(result.stdout, r"\b(U?INT|FLOAT|TEXT|BOOLEAN)\b| in [\[{]|\de[+-]\d")
+        for part in parts:
+            self.assertIn(part, result.stdout)
+
     def expect_refused(self, result, code, *parts):
         """The command ended with `code` and one line on standard error that holds each part."""
         self.assertEqual(result.returncode, code, result.stdout + result.stderr)

@@ -175,8 +175,12 @@ class Line(CommandTest):
         self.expect_refused(self.localize(), 2, "--server or --map")
         self.expect_refused(self.localize("--server", "http://127.0.0.1:1"), 2, "--cache")
         self.expect_refused(self.localize("--map", "a", "--server", "b", "--cache", "c"), 2, "--map")
-        for words in (("--help",), ("localize", "--help"), ("evaluate", "--help"), ("--version",)):
-            self.expect_done(run(CLIENT, *words))
+        self.expect_done(run(CLIENT, "--version"))
+
+    def test_help_teaches(self):
+        self.expect_teaches(run(CLIENT, "--help"), "localize", "evaluate")
+        for command in ("localize", "evaluate"):
+            self.expect_teaches(run(CLIENT, command, "--help"), "--drive DIR", "--cache-limit-mb MB", "1 to 1000000, default")
 
 
 commands.main() if __name__ == "__main__" else None

@@ -76,8 +76,12 @@ class Mapper(CommandTest):
         self.expect_refused(self.build(STREET / "street-map", self.map, "--jobs", "none"), 2, "--jobs")
         self.expect_refused(self.build(STREET / "street-map", self.map, "--job", "2"), 2, "--job")
         self.expect_refused(self.build(STREET / "street-map", self.map, "--min-r-squared", "2"), 2, "--min-r-squared")
-        for words in (("--help",), ("build", "--help"), ("--version",), ("build", "--version")):
+        for words in (("--version",), ("build", "--version")):
             self.expect_done(run(MAPPER, *words))
+
+    def test_help_teaches(self):
+        self.expect_teaches(run(MAPPER, "--help"), "build")
+        self.expect_teaches(run(MAPPER, "build", "--help"), "--drive DIR", "--max-features N", "0 to 1000000, default 1000")
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
     def test_no_folder_to_write_to(self):

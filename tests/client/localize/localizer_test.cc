@@ -1,5 +1,5 @@
-// The localizer against the receiver, on a straight road whose images turn slowly from one to the
-// next.
+// The localizer on straight roads whose images turn slowly from one to the next: against the
+// receiver, where nothing is to be seen, at the end of the road, and against a source that fails.
 #include "client/localize/localizer.h"
 
 #include <gtest/gtest.h>
@@ -26,21 +26,50 @@ ImageDescriptor image_from(double along_m) {
   return image;
 }
 
-Bytes tile_of_the_road() {
-  FrameTile tile{"road", 0, {}};
-  for (double along_m = 0; along_m <= kLengthM; along_m += kSpacingM) {
-    tile.frames.push_back({along_m, {}, image_from(along_m)});
-  }
-  return encode_frames(tile);
+// Looks like no place of the road.
+ImageDescriptor image_beside(double along_m) {
+  ImageDescriptor image{};
+  image[2] = static_cast<float>(std::cos(along_m / 100));
+  image[3] = static_cast<float>(std::sin(along_m / 100));
+  return image;
 }
 
-// A map of the one road.
+// Frames a little beyond the end of the line, in tiles of 50 m.
+std::vector<testing::LayerOfTiles::Tile> tiles_of_a_road(ImageDescriptor (*image_of)(double)) {
+  constexpr double kTileM = 50;
+  std::vector<testing::LayerOfTiles::Tile> tiles;
+  for (double from_m = 0; from_m <= kLengthM; from_m += kTileM) {
+    FrameTile tile{"road", static_cast<std::uint32_t>(tiles.size()), {}};
+    for (double along_m = from_m; along_m < from_m + kTileM; along_m += kSpacingM) {
+      tile.frames.push_back({along_m, {}, image_of(along_m)});
+    }
+    tiles.push_back({{from_m, from_m + kTileM - kSpacingM}, encode_frames(tile)});
+  }
+  return tiles;
+}
+
+MapVersion build_of_map(char digit) { return {"map", std::string(32, digit)}; }
+
+// A map of the one road, which may be built anew, become unavailable, or have another road beside.
 class OneRoad : public testing::LayerOfTiles {
  public:
-  OneRoad() : LayerOfTiles({{{0, kLengthM}, tile_of_the_road()}}) {
-    add_line(kVersion, description(), lines_);
-  }
+  OneRoad() : LayerOfTiles(tiles_of_a_road(image_from)) { build_anew('1'); }
 
+  void build_anew(char digit) {
+    current_ = build_of_map(digit);
+    lines_.clear();
+    add_line(current_, description("road"), lines_);
+  }
+  void add_road_beside() { add_line(current_, description("beside"), lines_); }
+  void be_unavailable() { is_available_ = false; }
+
+  Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
+                                       const std::string& layer, const AlongRange& range) override {
+    if (!is_available_) return Error{ErrorCode::unavailable, "map", "does not answer", "wait"};
+    if (version != current_) return Error{ErrorCode::gone, "map", "was built anew", "look it up"};
+    return segment == "road" ? LayerOfTiles::tiles(version, segment, layer, range)
+                             : beside_.tiles(version, segment, layer, range);
+  }
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                    double radius_m) override {
     return lines_near(lines_, position, radius_m);
@@ -51,42 +80,70 @@ class OneRoad : public testing::LayerOfTiles {
                           to_json(FeatureParameters())};
   }
   Result<SegmentDescription> segment(const MapVersion& /*version*/,
-                                     const std::string& /*segment*/) override {
-    return description();
+                                     const std::string& segment) override {
+    return description(segment);
   }
 
  private:
-  static SegmentDescription description() { return {"road", kLengthM, {kStart, kEnd}, {}}; }
-  inline static const MapVersion kVersion = {"map", "0123456789abcdef0123456789abcdef"};
+  static SegmentDescription description(const std::string& segment) {
+    return {segment, kLengthM, {kStart, kEnd}, {}};
+  }
 
+  LayerOfTiles beside_{tiles_of_a_road(image_beside)};
+  MapVersion current_;
+  bool is_available_ = true;
   std::vector<KnownLine> lines_;
 };
 
 class LocalizerAndReceiver : public ::testing::Test {
  protected:
-  LocalizerAndReceiver() : localizer_(std::make_shared<OneRoad>(), {600, 400, 400}, settings()) {}
-
   // The fix of the next frame, taken at `along_m`, with the receiver at `receiver_m` a while ago.
   Fix fix_at(double along_m, double receiver_m, double age_s = 0) {
-    time_s_ += 0.2;
-    localizer_.observe({time_s_ - age_s, road_->point_at(receiver_m), kSigmaM});
-    image_ = image_from(along_m);
-    const auto fix =
-        localizer_.localize({time_s_, {}, [this]() -> const ImageDescriptor& { return image_; }});
+    observe(receiver_m, age_s);
+    return fix_of(image_from(along_m));
+  }
+
+  // What the receiver says at the next frame.
+  void observe(double receiver_m, double age_s = 0) {
+    localizer_.observe({time_s_ + kStepS - age_s, road_->point_at(receiver_m), kSigmaM});
+  }
+
+  // The fix of the next frame without a word of the receiver; nothing is to be seen without image.
+  Fix fix_of(const std::optional<ImageDescriptor>& image) {
+    time_s_ += kStepS;
+    QueryFrame frame{time_s_, {}, {}};
+    if (image) frame.image = [&image]() -> const ImageDescriptor& { return *image; };
+    const auto fix = localizer_.localize(frame);
     EXPECT_TRUE(fix.ok()) << fix.error().line();
     return *fix;
   }
 
+  // Frames in which nothing is to be seen, until the fix is no longer predicted.
+  Fix fix_after_seeing_nothing() {
+    for (int frame = 0; frame < LocalizerSettings().max_predicted_frames; ++frame) {
+      EXPECT_EQ(fix_of(std::nullopt).status, FixStatus::predicted) << frame;
+    }
+    return fix_of(std::nullopt);
+  }
+
+  std::shared_ptr<OneRoad> map_ = std::make_shared<OneRoad>();
+  Result<RouteLine> road_ = RouteLine::from_vertices({kStart, kEnd});
+
  private:
+  static constexpr double kStepS = 0.2;
+
+ protected:
   static LocalizerSettings settings() {
     LocalizerSettings settings;
     settings.method = *method_named("wisurf");
+    settings.prefetch_m = 0;
+    settings.window.reach = {0, 10};
     return settings;
   }
 
-  Result<RouteLine> road_ = RouteLine::from_vertices({kStart, kEnd});
-  Localizer localizer_;
-  ImageDescriptor image_{};
+  Localizer localizer_{map_, {600, 400, 400}, settings()};
+
+ private:
   double time_s_ = 10;
 };
 
@@ -123,6 +180,102 @@ TEST_F(LocalizerAndReceiver, AnOldPositionContradictsLess) {
   fix_at(52, 52);
   EXPECT_EQ(fix_at(52, 20).status, FixStatus::predicted);  // 32 m off
   EXPECT_EQ(fix_at(52, 20, 1).status, FixStatus::tracking);
+  EXPECT_EQ(fix_at(52, 200, 4).status, FixStatus::tracking);  // 148 m off, but forgotten
+}
+
+TEST_F(LocalizerAndReceiver, WaitsForAFreshPosition) {
+  const Fix waiting = fix_at(50, 50, 4);
+  EXPECT_EQ(waiting.status, FixStatus::initializing);
+  EXPECT_FALSE(waiting.along_m.has_value());
+  EXPECT_TRUE(fix_at(50, 50).along_m.has_value());
+}
+
+TEST_F(LocalizerAndReceiver, IsOffTheMapWhereNoSegmentIsNear) {
+  road_ = RouteLine::from_vertices({{48, 8.4, 110}, {48.01, 8.4, 110}});
+  EXPECT_EQ(fix_at(50, 50).status, FixStatus::off_map);
+}
+
+TEST_F(LocalizerAndReceiver, OfTwoRoadsBelievesTheOneThatLooksAlike) {
+  map_->add_road_beside();
+  observe(50);
+  EXPECT_EQ(fix_of(image_beside(50)).segment, "beside");
+  Localizer again(map_, {600, 400, 400}, settings());
+  std::swap(localizer_, again);
+  observe(50);
+  EXPECT_EQ(fix_of(image_from(50)).segment, "road");
+}
+
+TEST_F(LocalizerAndReceiver, IsLostAfterTooManyFramesWithoutAnythingToSee) {
+  fix_at(50, 50);
+  EXPECT_EQ(fix_after_seeing_nothing().status, FixStatus::lost);
+}
+
+TEST_F(LocalizerAndReceiver, WhatIsSeenBetweenKeepsItFromBeingLost) {
+  fix_at(50, 50);
+  for (int turn = 0; turn < 3; ++turn) {
+    for (int frame = 0; frame < LocalizerSettings().max_predicted_frames; ++frame) {
+      EXPECT_EQ(fix_of(std::nullopt).status, FixStatus::predicted);
+    }
+    EXPECT_EQ(fix_of(image_from(52)).status, FixStatus::tracking);
+  }
+}
+
+TEST_F(LocalizerAndReceiver, LostItStartsAgainWhereItWasWithoutTheReceiver) {
+  fix_at(50, 50);
+  for (int frame = 0; frame < 20; ++frame) fix_of(image_from(52));  // the receiver grows old
+  ASSERT_EQ(fix_after_seeing_nothing().status, FixStatus::lost);
+  const Fix again = fix_of(image_from(52));
+  EXPECT_EQ(again.status, FixStatus::initializing);
+  EXPECT_NEAR(again.along_m.value_or(0), 52, kSpacingM);
+  EXPECT_EQ(fix_after_seeing_nothing().status, FixStatus::lost);  // as many frames as at first
+}
+
+TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItIsOffTheMap) {
+  fix_at(396, 396);
+  for (const double along_m : {398.0, 400.0, 402.0, 404.0}) {
+    const Fix fix = fix_at(along_m, along_m);
+    EXPECT_EQ(fix.status, FixStatus::tracking);
+    EXPECT_LE(*fix.along_m, road_->length_m());
+  }
+  road_ = RouteLine::from_vertices({{48, 8.4, 110}, {48.01, 8.4, 110}});  // the receiver drives on
+  EXPECT_EQ(fix_at(404, 50).status, FixStatus::off_map);
+  const Fix waiting = fix_at(404, 50, 4);
+  EXPECT_EQ(waiting.status, FixStatus::initializing);  // it was not lost
+}
+
+TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItStartsOnTheNext) {
+  fix_at(396, 396);
+  for (const double along_m : {398.0, 400.0, 402.0, 404.0}) fix_at(along_m, along_m);
+  const Fix next = fix_at(200, 200);
+  EXPECT_EQ(next.status, FixStatus::initializing);
+  EXPECT_NEAR(next.along_m.value_or(0), 200, kSpacingM);
+}
+
+TEST_F(LocalizerAndReceiver, ABuildThatIsGoneIsLookedUpAnew) {
+  fix_at(50, 50);
+  map_->build_anew('2');
+  Fix fix;
+  for (double along_m = 52; along_m < 200; along_m += kSpacingM) {
+    fix = fix_at(along_m, along_m);
+    if (fix.version == build_of_map('2')) break;
+    EXPECT_EQ(fix.status, FixStatus::tracking);
+  }
+  EXPECT_EQ(fix.version, build_of_map('2'));
+  EXPECT_EQ(fix.status, FixStatus::initializing);
+}
+
+TEST_F(LocalizerAndReceiver, ASourceThatFailsIsNotedAndDrivenOnWithout) {
+  fix_at(50, 50);
+  map_->be_unavailable();
+  Fix fix;
+  for (double along_m = 52; along_m < 200 && fix.status != FixStatus::predicted;
+       along_m += kSpacingM) {
+    EXPECT_FALSE(localizer_.noted_error().has_value());
+    fix = fix_at(along_m, along_m);
+  }
+  EXPECT_EQ(fix.status, FixStatus::predicted);
+  ASSERT_TRUE(localizer_.noted_error().has_value());
+  EXPECT_EQ(localizer_.noted_error()->code, ErrorCode::unavailable);
 }
 
 }  // namespace

@@ -76,6 +76,39 @@ TEST(PaperTracker, CarriesOnByTheMotionModel) {  // Eq. 16
   EXPECT_GT(tracker->position().sigma_m, 0.5);
 }
 
+TEST(PaperTracker, FiltersAfterTheFirstFrames) {  // section 4.2.4
+  PaperTrackerSettings settings;
+  settings.first_frames = 3;
+  settings.weight_within = 1;
+  const auto tracker = make_paper_tracker(settings);
+  tracker->start(0, {100, 0.5, 20});
+  tracker->advance(0.2, Measurement{102, 0.5, 20});
+  tracker->advance(0.4, Measurement{104, 0.5, 20});
+  tracker->advance(0.6, Measurement{106.5, 0.5, 20});
+  EXPECT_GT(tracker->position().along_m, 106.1);
+  EXPECT_LT(tracker->position().along_m, 106.4);
+}
+
+TEST(PaperTracker, StartsAnewWithoutAVelocity) {
+  const PaperTrackerSettings settings;
+  const auto tracker = make_paper_tracker(settings);
+  tracker->start(0, {100, 0.5, 20});
+  for (int k = 1; k < 6; ++k) tracker->advance(0.2 * k, Measurement{100 + 2.0 * k, 0.5, 20});
+  tracker->start(10, {50, 0.5, 20});
+  const AlongRange region = tracker->search_region(10.2);
+  EXPECT_DOUBLE_EQ(region.from_m, 50 - settings.min_region_m);
+  EXPECT_NEAR(region.to_m, 50 + 0.2 * settings.max_speed_mps + settings.min_region_m, 1e-9);
+  tracker->advance(10.2, Measurement{53, 0.5, 20});
+  EXPECT_DOUBLE_EQ(tracker->position().along_m, 53);
+}
+
+TEST(PaperTracker, AVehicleOnItsWayDoesNotGoBack) {
+  const auto tracker = make_paper_tracker({});
+  tracker->start(0, {100, 0.5, 20});
+  tracker->advance(0.2, Measurement{98, 0.5, 20});
+  EXPECT_DOUBLE_EQ(tracker->predict(0.4).along_m, 98);
+}
+
 TEST(MotionTracker, LearnsTheSpeed) {
   const auto tracker = make_motion_tracker({});
   tracker->start(0, {100, 0.1, 20});

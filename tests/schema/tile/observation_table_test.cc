@@ -100,6 +100,7 @@ TEST(ObservationTable, KeepsEveryObservation) {
   const ObservationTile tile = random_tile(100000.123456789);
   const auto decoded = decode_observations(encode_observations(tile));
   ASSERT_TRUE(decoded.ok()) << decoded.error().line();
+  EXPECT_EQ(decoded->model, tile.model);
   ASSERT_EQ(decoded->tracklets.size(), tile.tracklets.size());
   for (std::size_t i = 0; i < tile.tracklets.size(); ++i) {
     const ObservedTracklet& was = tile.tracklets[i];
