@@ -7,7 +7,8 @@ from laboratory.fixes import PairFixes
 
 
 def fixes(pair, method, errors_m, sigma_m=1.0, curved=None, lateral_m=None, kb_per_m=4.0, length_m=100.0,
-          map_name=None, lateral_error_m=math.nan, lateral_sigma_m=math.nan, heading_error_deg=math.nan, latency_ms=70.0):
+          map_name=None, lateral_error_m=math.nan, lateral_sigma_m=math.nan, heading_error_deg=math.nan,
+          latency_ms=70.0):
     """A PairFixes with these errors, frames one metre apart; NaN: not localized."""
     def of_frames(values):
         return np.broadcast_to(np.asarray(values, float), len(errors_m)).copy()

@@ -55,7 +55,8 @@ class Plans(unittest.TestCase):
                   for name, run in planned.items()}
         self.assertEqual(drives["as recorded"], "/drives/a-query")
         self.assertEqual(drives["yaw 2°"], "/results/alter/drive")
-        altered = {name: words_of(run.evaluation.needs[1])[-2:] for name, run in planned.items() if name != "as recorded"}
+        altered = {name: words_of(run.evaluation.needs[1])[-2:] for name, run in planned.items()
+                   if name != "as recorded"}
         self.assertEqual(altered, {"focal -5 %": ["0.95", "0"], "focal +5 %": ["1.05", "0"], "yaw 2°": ["1", "2"]})
 
     def test_an_altered_drive_is_a_stage_that_needs_no_program_of_milepost(self):
@@ -90,7 +91,8 @@ class AlteredDrive(unittest.TestCase):
 class Outcomes(unittest.TestCase):
     def outcome(self, name, of_value):
         """`of_value`: {value of the study: PairFixes}."""
-        runs = {value: [types.SimpleNamespace(pair=PAIR, map_file="m", found=found)] for value, found in of_value.items()}
+        runs = {value: [types.SimpleNamespace(pair=PAIR, map_file="m", found=found)]
+                for value, found in of_value.items()}
         with mock.patch.object(studies, "read_run", lambda run, drive: run.found):
             return studies.outcome(studies.STUDIES[name], runs, lambda pair: None)
 
@@ -100,7 +102,8 @@ class Outcomes(unittest.TestCase):
             0.15: [fixes("p", "milepost", [0.4, 0.4], kb_per_m=0.16, lateral_error_m=0.2)]})
         self.assertEqual(outcome.points, {"milepost": [(0.16, 0.4, 0.2), (0.48, 0.2, 0.5)]})
         self.assertIn("mean lateral error (m)", outcome.figure)
-        self.assertRegex(outcome.table.as_text(), r"\n0\.5 +0\.48 +milepost +0\.200 +0\.100 +0\.30 +0\.500 +0\.725 +– +0\.48 ")
+        self.assertRegex(outcome.table.as_text(),
+                         r"\n0\.5 +milepost +0\.200 +0\.100 +0\.30 +0\.500 +0\.725 +– +0\.48 ")
 
     def test_calibrations_stand_side_by_side(self):
         recorded, _, wide, _ = studies.CALIBRATIONS

@@ -127,11 +127,13 @@ class Tables(unittest.TestCase):
                                "along in 2σ": 200 / 3, "lateral in 2σ": 200 / 3}.items():
             self.assertAlmostEqual(ours[heading], value, msg=heading)
         self.assertAlmostEqual(rows[3]["lateral mean"], 0.02)
-        self.assertRegex(table.as_text(), r"\na +inverse-scale +0\.300 +0\.480 +0\.50 +– +– +– +– +3\.00 +50\.0 +–\n")
+        self.assertRegex(table.as_text(),
+                         r"\na +inverse-scale +0\.300 +0\.480 +0\.50 +– +– +– +– +3\.00 +50\.0 +–\n")
         self.assertIn("| all pairs | milepost | **0.040** |", table.as_markdown())
 
     def test_the_time_of_a_frame_stands_in_a_table_of_its_own(self):
-        of = [fixes("a", "milepost", [0.1, 0.2, 0.3], latency_ms=[60, 70, 500]), fixes("b", "milepost", [0.1], latency_ms=90)]
+        of = [fixes("a", "milepost", [0.1, 0.2, 0.3], latency_ms=[60, 70, 500]),
+              fixes("b", "milepost", [0.1], latency_ms=90)]
         table = tables.precision_latency_table(of)
         self.assertTrue(table.name.startswith("latency"))
         self.assertEqual([row["p50"] for row in self.precision_rows(table)], [80, 70, 90])

@@ -168,7 +168,7 @@ def estimate_histogram(errors_m, normality):
     return drawn(1, 2, 3.2, draw, width_ratios=[1.7, 1])
 
 
-def study_figure(points, x_label, x_log=False, second_label="map (kB/m)", x_ticks=()):
+def study_figure(points, x_label, x_log=False, second_label=None, x_ticks=()):
     """`points`: of each method a list of (x, mean error m, value of the second plot), x increasing.
 
     Without a label there is no second plot. `x_ticks` are names of x = 0, 1, 2, ...

@@ -38,6 +38,11 @@ class Study:
     second: str = SIZE
     x_ticks: tuple = ()  # names of x = 0, 1, 2, ...
 
+    @property
+    def x_has_column(self):
+        """Whether no other column of the table says what x is."""
+        return not self.x_ticks and self.x_label != SIZE
+
 
 @dataclasses.dataclass(frozen=True)
 class Outcome:
@@ -75,8 +80,9 @@ STUDIES = {study.name: study for study in (
           "Map frames nearer to the last one than 0.9, 1.9, 2.9, 3.9, 4.9 m are passed over; drawn at the spacing that "
           "remains.", "--min-frame-spacing-m", (0.9, 1.9, 2.9, 3.9, 4.9), 0.3, "distance of map frames (m)", measured_spacing_m),
     Study("size", "Error against the size of the map",
-          "The mapper keeps the landmarks that tell the most within so many kB a metre; drawn at the size that came out.",
-          "--size-target-kb-per-m", (0.15, 0.25, 0.35, 0.5, 0.8, 1.5), None, "map (kB/m)",
+          "The mapper keeps the landmarks that tell the most within so many kB a metre; drawn at the size that came "
+          "out.",
+          "--size-target-kb-per-m", (0.15, 0.25, 0.35, 0.5, 0.8, 1.5), None, SIZE,
           lambda _, __, fixes: statistics.kb_per_m(fixes), x_log=True, methods=(paper.OURS,), second=LATERAL),
     Study("calibration-error", "Error of a camera of wrong calibration",
           "The query's drive.json says another focal length than the camera has, or a principal point where a camera "
@@ -105,7 +111,7 @@ def outcome(study, runs, query_drive):
     table = Table(
         f"study-{study.name}", study.title, study.caption + " Pairs: " +
         ", ".join(run.pair.name for run in next(iter(runs.values()))) + ".",
-        [(study.option, "", None), *([] if study.x_ticks else [(study.x_label, "", 2)]), ("method", "", None),
+        [(study.option, "", None), *([(study.x_label, "", 2)] if study.x_has_column else []), ("method", "", None),
          ("mean", "m", 3), ("std", "m", 3), ("max", "m", 2), ("lateral mean", "m", 3), ("lateral p95", "m", 3),
          ("heading mean", "°", 2), ("map", "kB/m", 2), ("localized", "", 0), ("frames", "", 0)], groups=1)
     points = {}
@@ -118,7 +124,7 @@ def outcome(study, runs, query_drive):
             each, kb_per_m = statistics.figures_of(here), statistics.kb_per_m(here)
             lateral, heading = (statistics.spread_of(statistics.pooled(here, name))
                                 for name in ("lateral_error_m", "heading_error_deg"))
-            table.rows.append([name_of(value), *([] if study.x_ticks else [x]), method, each.mean_m, each.std_m,
+            table.rows.append([name_of(value), *([x] if study.x_has_column else []), method, each.mean_m, each.std_m,
                                each.max_m, lateral.mean, lateral.p95, heading.mean, kb_per_m, each.localized,
                                each.frames])
             second = {SIZE: kb_per_m, LATERAL: lateral.mean}[study.second]
@@ -153,7 +159,7 @@ def lateral_outcome(fixes):
             if each.localized >= LEAST_FRAMES:
                 points.setdefault(method, []).append((offset_m, each.mean_m, math.nan))
     return Outcome(table.title, table.note, table,
-                   figures.study_figure(points, "distance from the map's line (m)", second_label=None), points)
+                   figures.study_figure(points, "distance from the map's line (m)"), points)
 
 
 def in_offsets(fixes, low_m, high_m):

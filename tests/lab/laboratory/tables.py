@@ -163,15 +163,15 @@ def precision_table(fixes):
     """Position and heading of each method: all pairs together, and pair by pair."""
     table = Table(
         "precision", "Precision: along, lateral and heading",
-        "Mean, 95th percentile and maximum of the absolute errors along the route and to the side, mean of the absolute "
-        "heading error, over the frames of which the method knows them; –: it knows none. Map: what a vehicle holds for "
-        "the method on each metre of road. In 2σ: share of the errors within twice the standard deviation that the "
-        "method itself claims; 95.4 % would be honest. Of all pairs together each frame counts alike.",
+        "Mean, 95th percentile and maximum of the absolute errors along the route and to the side, mean of the "
+        "absolute heading error, over the frames of which the method knows them; –: it knows none. Map: what a vehicle "
+        "holds for the method on each metre of road. In 2σ: share of the errors within twice the standard deviation "
+        "that the method itself claims; 95.4 % would be honest. Of all pairs together each frame counts alike.",
         [("pair", "", None), ("method", "", None), ("along mean", "m", 3), ("along p95", "m", 3), ("along max", "m", 2),
          ("lateral mean", "m", 3), ("lateral p95", "m", 3), ("lateral max", "m", 2), ("heading mean", "°", 2),
          ("map", "kB/m", 2), ("along in 2σ", "%", 1), ("lateral in 2σ", "%", 1)],
-        best={"along mean", "along p95", "along max", "lateral mean", "lateral p95", "lateral max", "heading mean", "map"},
-        groups=1)
+        best={"along mean", "along p95", "along max", "lateral mean", "lateral p95", "lateral max", "heading mean",
+              "map"}, groups=1)
     for pair, method, here in by_pair_and_method(fixes):
         table.rows.append([pair, method, *precision_cells(here)])
     return table
