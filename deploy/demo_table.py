@@ -17,6 +17,7 @@ COLUMNS = [
     ("max m", "max_error_m", 2, "largest absolute error"),
     ("p95 m", "p95_error_m", 3, "95 % of the errors are no larger"),
     ("in 2 sigma", "within_2_sigma", 2, "share of errors within twice the sigma that was claimed"),
+    ("lateral m", "mean_lateral_error_m", 3, "mean absolute error to the side, of methods that know it"),
     ("kB/m", "map_kb_per_m", 2, "what the vehicle holds, for each metre of road"),
     ("ms p50", "latency_ms_p50", 1, "time for one frame, median"),
 ]

@@ -148,6 +148,13 @@ int run_evaluate(const std::string& program, std::vector<std::string> words) {
       "Localizes every frame of a drive and says how far the fixes are from the recorded "
       "positions.\n\n"
       "Writes summary.json, fixes-METHOD.csv and report.html into the output folder.\n"
+      "fixes-METHOD.csv has the columns of localize up to latency_ms; then truth_along_m, error_m; "
+      "then\n"
+      "lateral_m, heading_deg, lateral_sigma_m and truth_lateral_m, lateral_error_m, "
+      "heading_error_deg.\n"
+      "Errors are fix less truth. Along and lateral are told by the segment's line, lateral "
+      "positive to\n"
+      "the right; the true heading is the recorded one.\n"
       "Example: milepost-client evaluate --map maps/town.map --drive drives/tuesday --out results "
       "\\\n"
       "           --method tracklet-regression-kalman milepost",

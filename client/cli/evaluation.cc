@@ -62,6 +62,11 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[below] + (rank - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
+// The difference of two directions as the shorter turn between them, (-180, 180].
+double turn_deg(double from_deg, double to_deg) {
+  return 180 - wrapped_360(180 - (to_deg - from_deg));
+}
+
 double mean_of(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
@@ -93,6 +98,35 @@ void summarize_errors(const std::vector<EvaluatedFix>& fixes, Summary& summary) 
   summary.within_2_sigma = within / static_cast<double>(errors_m.size());
 }
 
+using ErrorOfFix = std::optional<double> EvaluatedFix::*;
+
+ErrorFigures figures_of(const std::vector<EvaluatedFix>& fixes, ErrorOfFix error) {
+  std::vector<double> errors;
+  for (const EvaluatedFix& fix : fixes) {
+    if (fix.*error) errors.push_back(std::abs(*(fix.*error)));
+  }
+  std::sort(errors.begin(), errors.end());
+  return {mean_of(errors), quantile(errors, 0.95), quantile(errors, 1)};
+}
+
+double lateral_within_2_sigma(const std::vector<EvaluatedFix>& fixes) {
+  double claimed = 0;
+  double within = 0;
+  for (const EvaluatedFix& fix : fixes) {
+    const std::optional<double>& sigma_m = fix.frame.fix.lateral_sigma_m;
+    if (!fix.lateral_error_m || !sigma_m) continue;
+    ++claimed;
+    if (std::abs(*fix.lateral_error_m) <= 2 * *sigma_m) ++within;
+  }
+  return within / claimed;
+}
+
+void summarize_pose(const std::vector<EvaluatedFix>& fixes, Summary& summary) {
+  summary.lateral_error_m = figures_of(fixes, &EvaluatedFix::lateral_error_m);
+  summary.lateral_within_2_sigma = lateral_within_2_sigma(fixes);
+  summary.heading_error_deg = figures_of(fixes, &EvaluatedFix::heading_error_deg);
+}
+
 void summarize_latency(const std::vector<EvaluatedFix>& fixes, Summary& summary) {
   std::vector<double> latencies_ms;
   latencies_ms.reserve(fixes.size());
@@ -117,6 +151,17 @@ Result<double> map_kb_per_m(const std::set<SegmentName>& driven, const std::stri
   return bytes / 1000 / length_m;
 }
 
+// Sets the truth on the line of the segment, and how far the fix is from it.
+void compare(const Frame& frame, const RouteLine& line, EvaluatedFix& evaluated) {
+  const Fix& fix = evaluated.frame.fix;
+  const LineProjection truth = line.project(frame.position);
+  evaluated.truth_along_m = truth.along_m;
+  evaluated.truth_lateral_m = truth.lateral_m;
+  if (fix.along_m) evaluated.error_m = *fix.along_m - truth.along_m;
+  if (fix.lateral_m) evaluated.lateral_error_m = *fix.lateral_m - truth.lateral_m;
+  if (fix.heading_deg) evaluated.heading_error_deg = turn_deg(frame.heading_deg, *fix.heading_deg);
+}
+
 }  // namespace
 
 Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::string& layer,
@@ -127,17 +172,13 @@ Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::st
   MethodEvaluation evaluation;
   for (std::size_t i = 0; i < fixes.size(); ++i) {
     EvaluatedFix evaluated{fixes[i], std::nullopt, std::nullopt};
-    const GeoPoint& position = drive.frames[i].position;
-    const auto name = segment_for_truth(fixes[i].fix, position, source);
+    const auto name = segment_for_truth(fixes[i].fix, drive.frames[i].position, source);
     if (!name) return name.error();
     if (*name) {
       const Result<const RouteLine*> line = lines.of(**name);
       if (!line) return line.error();
-      evaluated.truth_along_m = (*line)->project(position).along_m;
-      if (fixes[i].fix.along_m) {
-        evaluated.error_m = *fixes[i].fix.along_m - *evaluated.truth_along_m;
-        driven.insert(**name);
-      }
+      compare(drive.frames[i], **line, evaluated);
+      if (fixes[i].fix.along_m) driven.insert(**name);
     }
     evaluation.fixes.push_back(std::move(evaluated));
   }
@@ -145,6 +186,7 @@ Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::st
   summary.method = method;
   summary.frames = fixes.size();
   summarize_errors(evaluation.fixes, summary);
+  summarize_pose(evaluation.fixes, summary);
   summarize_latency(evaluation.fixes, summary);
   const Result<double> size = map_kb_per_m(driven, layer, lines, source);
   if (!size) return size.error();

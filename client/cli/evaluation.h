@@ -1,6 +1,8 @@
 // How well fixes agree with where the query drive really was.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +25,18 @@ struct EvaluatedFix {
   FrameFix frame;
   std::optional<double> truth_along_m;  // on the fix's segment, or the nearest one without a fix
   std::optional<double> error_m;        // along - truth, where the frame has an along
+  // Of the recorded position, on the same segment; positive to the right of its line.
+  std::optional<double> truth_lateral_m = {};
+  // Fix - truth, where the method knows them.
+  std::optional<double> lateral_error_m = {};
+  std::optional<double> heading_error_deg = {};  // (-180, 180], positive clockwise
+};
+
+// How far numbers of one kind are off, as absolute values; NaN where none is known.
+struct ErrorFigures {
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double p95 = std::numeric_limits<double>::quiet_NaN();
+  double max = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Errors are absolute values of EvaluatedFix::error_m over the localized frames; NaN without any.
@@ -39,6 +53,12 @@ struct Summary {
   double map_kb_per_m = 0;  // of the method's layers on the segments driven, 1 kB = 1000 bytes
   double latency_ms_p50 = 0;
   double latency_ms_p99 = 0;
+  // Over the frames of which the method knows them; NaN of one that knows none.
+  ErrorFigures lateral_error_m;
+  double lateral_within_2_sigma = std::numeric_limits<double>::quiet_NaN();  // share, [0, 1]
+  ErrorFigures heading_error_deg;
+
+  bool knows_lateral() const { return std::isfinite(lateral_error_m.mean); }
 };
 
 struct MethodEvaluation {
@@ -46,8 +66,9 @@ struct MethodEvaluation {
   std::vector<EvaluatedFix> fixes;  // one a frame, in order
 };
 
-// Adds the truth: the along of the nearest point of the segment's line to the recorded position.
-// `layer` is the method's. Errors: those of the source.
+// Adds the truth: the along of the nearest point of the segment's line to the recorded position,
+// its distance from there, and the recorded heading. `layer` is the method's. Errors: those of the
+// source.
 Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::string& layer,
                                         const Drive& drive, const std::vector<FrameFix>& fixes,
                                         MapSource& source);

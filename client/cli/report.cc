@@ -28,6 +28,12 @@ std::string head(const ReportInput& input) {
          std::string(report_style()) + "</style>\n</head>\n";
 }
 
+std::string lateral_lead(const Summary& summary) {
+  if (!summary.knows_lateral()) return "";
+  return " To the side it is off by " + metres(summary.lateral_error_m.mean) +
+         " in the mean, 95\u00A0% by at most " + metres(summary.lateral_error_m.p95) + ".";
+}
+
 // What the best known method did, in a sentence or two.
 std::string lead(const ReportSeries& series) {
   if (series.methods.empty()) return "No method was evaluated.";
@@ -38,7 +44,8 @@ std::string lead(const ReportSeries& series) {
   return summary.method + " placed " + std::to_string(summary.localized_frames) + " of " +
          counted(summary.frames, "frame") + " on the map. Half of them are within " +
          metres(summary.p50_error_m) + " of where the camera really was, 95\u00A0% within " +
-         metres(summary.p95_error_m) + "; the worst is off by " + metres(summary.max_error_m) + ".";
+         metres(summary.p95_error_m) + "; the worst is off by " + metres(summary.max_error_m) +
+         "." + lateral_lead(summary);
 }
 
 std::string frames_fact(const Drive& drive) {
@@ -97,6 +104,17 @@ std::string summary(const ReportInput& input) {
          note + "</p>\n</section>\n";
 }
 
+std::string pose_summary(const ReportInput& input) {
+  const std::string table = pose_table(input.methods);
+  if (table.empty()) return "";
+  return "<section>\n<h2>Lateral position and heading</h2>\n" + table +
+         "<p class=\"note\">Of the methods that know where in the lane the camera is and where it "
+         "looks. Lateral: absolute difference of the distances of fix and truth from the segment's "
+         "line. Heading: absolute angle between the two. Within 2\u03C3: the share inside twice "
+         "the "
+         "reported lateral standard deviation.</p>\n</section>\n";
+}
+
 std::string html_of(const Figure& figure) {
   const std::string nothing =
       "<p class=\"empty\">There is nothing to draw: no frame has the numbers that this figure "
@@ -107,10 +125,11 @@ std::string html_of(const Figure& figure) {
 }
 
 std::string figures(const ReportInput& input, const ReportSeries& series) {
-  return html_of(error_figure(series)) + html_of(matches_figure(series)) +
-         "<div class=\"pair\">\n" + html_of(histogram_figure(series)) +
-         html_of(cumulative_figure(series)) + "</div>\n" + html_of(map_figure(input, series)) +
-         html_of(latency_figure(series));
+  return html_of(error_figure(series)) +
+         (series.knows_lateral() ? html_of(lateral_figure(series)) : "") +
+         html_of(matches_figure(series)) + "<div class=\"pair\">\n" +
+         html_of(histogram_figure(series)) + html_of(cumulative_figure(series)) + "</div>\n" +
+         html_of(map_figure(input, series)) + html_of(latency_figure(series));
 }
 
 }  // namespace
@@ -118,7 +137,7 @@ std::string figures(const ReportInput& input, const ReportSeries& series) {
 std::string report_html(const ReportInput& input) {
   const ReportSeries series = report_series(input);
   std::string html = head(input) + "<body>\n" + plot::Chart::definitions() + heading(input, series);
-  if (!input.methods.empty()) html += summary(input) + figures(input, series);
+  if (!input.methods.empty()) html += summary(input) + pose_summary(input) + figures(input, series);
   return html + "</body>\n</html>\n";
 }
 

@@ -16,6 +16,7 @@ struct Figure {
 
 // Along the route (report_route.cc). REQUIRES: there is a method.
 Figure error_figure(const ReportSeries& series);
+Figure lateral_figure(const ReportSeries& all);  // of the methods that know their lateral
 Figure matches_figure(const ReportSeries& series);
 Figure latency_figure(const ReportSeries& series);
 

@@ -58,22 +58,47 @@ std::string unplaced_text(const MethodSeries& method) {
          " without a true position.";
 }
 
-std::vector<Point> error_points(const MethodSeries& method) {
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Signed errors that are drawn along the route, and the sigma that a fix claims for them.
+struct ErrorKind {
+  std::vector<double> MethodSeries::*error_m;
+  double (*sigma_m)(const Fix&);  // NaN where none is claimed
+};
+
+constexpr ErrorKind kAlong = {&MethodSeries::error_m,
+                              [](const Fix& fix) { return fix.along_m ? fix.sigma_m : kNaN; }};
+constexpr ErrorKind kLateral = {&MethodSeries::lateral_error_m,
+                                [](const Fix& fix) { return fix.lateral_sigma_m.value_or(kNaN); }};
+
+std::vector<Point> error_points(const MethodSeries& method, const ErrorKind& kind) {
+  const std::vector<double>& error_m = method.*kind.error_m;
   std::vector<Point> points;
-  for (std::size_t i = 0; i < method.error_m.size(); ++i) {
-    points.push_back({method.route_m[i], method.error_m[i]});
+  for (std::size_t i = 0; i < error_m.size(); ++i) {
+    points.push_back({method.route_m[i], error_m[i]});
   }
   return points;
 }
 
-std::vector<Point> two_sigma_points(const MethodSeries& method) {
+std::vector<Point> two_sigma_points(const MethodSeries& method, const ErrorKind& kind) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < method.error_m.size(); ++i) {
-    const Fix& fix = method.evaluation->fixes[i].frame.fix;
-    points.push_back({fix.along_m ? method.route_m[i] : std::numeric_limits<double>::quiet_NaN(),
-                      2 * fix.sigma_m});
+  for (std::size_t i = 0; i < method.route_m.size(); ++i) {
+    const double sigma_m = kind.sigma_m(method.evaluation->fixes[i].frame.fix);
+    points.push_back({std::isfinite(sigma_m) ? method.route_m[i] : kNaN, 2 * sigma_m});
   }
   return points;
+}
+
+// Lateral and heading of a frame, where they are known.
+std::string pose_text(const MethodSeries& method, std::size_t i) {
+  std::string text;
+  if (std::isfinite(method.lateral_error_m[i])) {
+    text += ", lateral " + plot::signed_number(method.lateral_error_m[i], 3) + " m";
+  }
+  if (std::isfinite(method.heading_error_deg[i])) {
+    text += ", heading " + plot::signed_number(method.heading_error_deg[i], 2) + "\u00B0";
+  }
+  return text;
 }
 
 std::string hover_text(const ReportSeries& series, std::size_t i) {
@@ -88,7 +113,8 @@ std::string hover_text(const ReportSeries& series, std::size_t i) {
                 ? "no fix"
                 : plot::signed_number(method.error_m[i], 3) + " m (\u03C3 " +
                       plot::number(fix.fix.sigma_m, 3) + " m)";
-    text += ", " + word_of(fix.fix.status) + ", matches: " + std::to_string(fix.fix.matches);
+    text += pose_text(method, i) + ", " + word_of(fix.fix.status) +
+            ", matches: " + std::to_string(fix.fix.matches);
   }
   return text;
 }
@@ -168,12 +194,13 @@ std::string status_counts(const MethodSeries& method) {
   return listed(parts);
 }
 
-std::string beyond_text(const ReportSeries& series, const Axis& y) {
+std::string beyond_text(const ReportSeries& series, const ErrorKind& kind, const Axis& y) {
   std::vector<std::string> parts;
   for (const MethodSeries& method : series.methods) {
-    const auto& errors = method.localized_errors_m;
-    const auto beyond = std::count_if(errors.begin(), errors.end(),
-                                      [&](double error_m) { return !y.contains(error_m); });
+    const std::vector<double>& errors_m = method.*kind.error_m;
+    const auto beyond = std::count_if(errors_m.begin(), errors_m.end(), [&](double error_m) {
+      return std::isfinite(error_m) && !y.contains(error_m);
+    });
     if (beyond > 0) parts.push_back(std::to_string(beyond) + " of " + method.name);
   }
   if (parts.empty()) return "";
@@ -181,17 +208,31 @@ std::string beyond_text(const ReportSeries& series, const Axis& y) {
          "\u00A0m: " + listed(parts) + ".";
 }
 
+std::string band_text(const MethodSeries& chief, double within_2_sigma) {
+  return "The grey band is twice the standard deviation that " + chief.name +
+         " itself reports: " + plot::number(100 * within_2_sigma, 1) +
+         "\u00A0% of its errors lie inside; an honest one holds 95\u00A0%. ";
+}
+
 std::string error_caption(const ReportSeries& series, const Axis& y) {
   const MethodSeries& chief = series.chief_method();
   std::string text = "Above zero the fix is ahead of the truth, below it behind. ";
   if (chief.evaluation->summary.localized_frames > 0) {
-    text += "The grey band is twice the standard deviation that " + chief.name +
-            " itself reports: " + plot::number(100 * chief.evaluation->summary.within_2_sigma, 1) +
-            "\u00A0% of its errors lie inside; an honest one holds 95\u00A0%. ";
+    text += band_text(chief, chief.evaluation->summary.within_2_sigma);
   }
   text += "The lanes under the axis mark frames that were not tracked. " + chief.name + ": " +
           status_counts(chief) + ".";
-  return text + beyond_text(series, y) + unplaced_text(chief);
+  return text + beyond_text(series, kAlong, y) + unplaced_text(chief);
+}
+
+std::string lateral_caption(const ReportSeries& series, const Axis& y) {
+  const MethodSeries& chief = series.chief_method();
+  std::string text = "Above zero the fix is right of the truth, below it left. ";
+  if (std::isfinite(chief.evaluation->summary.lateral_within_2_sigma)) {
+    text += band_text(chief, chief.evaluation->summary.lateral_within_2_sigma);
+  }
+  return text + "Methods that know no lateral position are left out." +
+         beyond_text(series, kLateral, y);
 }
 
 // A line a method, from zero up.
@@ -244,17 +285,19 @@ double latency_ms_of(const EvaluatedFix& fix) { return fix.frame.latency_ms; }
 
 // Without the methods that compare whole images and match nothing; the chief stays.
 ReportSeries matching_methods(const ReportSeries& all) {
-  ReportSeries matching = all;
-  matching.methods.clear();
-  for (const MethodSeries& method : all.methods) {
+  return only(all, [&](const MethodSeries& method) {
     const auto& fixes = method.evaluation->fixes;
-    const bool matches = std::any_of(fixes.begin(), fixes.end(),
-                                     [](const EvaluatedFix& fix) { return matches_of(fix) > 0; });
-    const bool is_chief = &method == &all.chief_method();
-    if (is_chief) matching.chief = matching.methods.size();
-    if (matches || is_chief) matching.methods.push_back(method);
+    return &method == &all.chief_method() ||
+           std::any_of(fixes.begin(), fixes.end(),
+                       [](const EvaluatedFix& fix) { return matches_of(fix) > 0; });
+  });
+}
+
+void draw_errors(Chart& chart, const ErrorKind& kind, const ReportSeries& series) {
+  for (const MethodSeries* method : series.back_to_front()) {
+    if (method == &series.chief_method()) chart.band(two_sigma_points(*method, kind), "band");
+    draw_line_and_dots(chart, error_points(*method, kind), *method, series);
   }
-  return matching;
 }
 
 }  // namespace
@@ -268,11 +311,26 @@ Figure error_figure(const ReportSeries& series) {
   if (!has_route(series)) return figure;
   Chart chart =
       Chart::of_height(route_axis(series), y, 300, "Signed error of each frame along the route");
-  for (const MethodSeries* method : series.back_to_front()) {
-    if (method == &series.chief_method()) chart.band(two_sigma_points(*method), "band");
-    draw_line_and_dots(chart, error_points(*method), *method, series);
-  }
+  draw_errors(chart, kAlong, series);
   add_status_lanes(chart, series);
+  chart.hover(hover_strips(series));
+  figure.drawing = chart.svg();
+  return figure;
+}
+
+Figure lateral_figure(const ReportSeries& all) {
+  const ReportSeries series =
+      only(all, [](const MethodSeries& method) { return method.knows_lateral(); });
+  Figure figure;
+  figure.heading = "Error to the side";
+  figure.legend = method_legend(series);
+  const Axis y =
+      Axis::rounded("lateral error (m)", -series.lateral_limit_m, series.lateral_limit_m);
+  figure.caption = lateral_caption(series, y);
+  if (!has_route(series)) return figure;
+  Chart chart =
+      Chart::of_height(route_axis(series), y, 220, "Signed lateral error along the route");
+  draw_errors(chart, kLateral, series);
   chart.hover(hover_strips(series));
   figure.drawing = chart.svg();
   return figure;

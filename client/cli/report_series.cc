@@ -16,14 +16,15 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // The method that each colour of the style belongs to, here and in the laboratory's report
 // (tests/lab/laboratory/drawing.py).
-constexpr std::array<std::string_view, 8> kMethodOfColour = {kDefaultMethod,
+constexpr std::array<std::string_view, 9> kMethodOfColour = {kDefaultMethod,
                                                              "tracklet-regression-kalman",
                                                              "tracklet-regression",
                                                              "tracklet-regression-particle",
                                                              "tracklet-matching",
                                                              "scale-only",
                                                              "wisurf",
-                                                             "tracklet-regression-unaveraged"};
+                                                             "tracklet-regression-unaveraged",
+                                                             "inverse-scale"};
 constexpr double kHeadroom = 1.05;        // so that the greatest value is not half outside the plot
 constexpr double kWidestToNarrowest = 8;  // of the methods' error scales in one plot
 
@@ -78,6 +79,8 @@ MethodSeries series_of(const MethodEvaluation& evaluation) {
   method.evaluation = &evaluation;
   for (const EvaluatedFix& fix : evaluation.fixes) {
     method.error_m.push_back(finite_or_nan(fix.error_m));
+    method.lateral_error_m.push_back(finite_or_nan(fix.lateral_error_m));
+    method.heading_error_deg.push_back(finite_or_nan(fix.heading_error_deg));
   }
   method.localized_errors_m = finite_only(method.error_m);
   std::sort(method.localized_errors_m.begin(), method.localized_errors_m.end());
@@ -130,11 +133,12 @@ void place_on_route(ReportSeries& series, const ReportInput& input) {
   series.route_to_m = to_m;
 }
 
-double error_limit_m(const std::vector<MethodSeries>& methods) {
+double error_limit_m(const std::vector<MethodSeries>& methods,
+                     std::vector<double> MethodSeries::*errors_m) {
   double widest_m = 0;
   double narrowest_m = std::numeric_limits<double>::infinity();
   for (const MethodSeries& method : methods) {
-    const double reach_m = robust_reach(method.localized_errors_m);
+    const double reach_m = robust_reach(method.*errors_m);
     widest_m = std::max(widest_m, reach_m);
     if (reach_m > 0) narrowest_m = std::min(narrowest_m, reach_m);
   }
@@ -143,6 +147,11 @@ double error_limit_m(const std::vector<MethodSeries>& methods) {
 }
 
 }  // namespace
+
+bool ReportSeries::knows_lateral() const {
+  return std::any_of(methods.begin(), methods.end(),
+                     [](const MethodSeries& method) { return method.knows_lateral(); });
+}
 
 std::vector<const MethodSeries*> ReportSeries::back_to_front() const {
   std::vector<const MethodSeries*> order;
@@ -161,8 +170,21 @@ ReportSeries report_series(const ReportInput& input) {
   series.chief = chief_of(input.methods);
   give_colours(series);
   place_on_route(series, input);
-  series.error_limit_m = error_limit_m(series.methods);
+  series.error_limit_m = error_limit_m(series.methods, &MethodSeries::error_m);
+  series.lateral_limit_m = error_limit_m(series.methods, &MethodSeries::lateral_error_m);
   return series;
+}
+
+ReportSeries only(const ReportSeries& all, const std::function<bool(const MethodSeries&)>& shown) {
+  ReportSeries chosen = all;
+  chosen.methods.clear();
+  chosen.chief = 0;
+  for (const MethodSeries& method : all.methods) {
+    if (!shown(method)) continue;
+    if (&method == &all.chief_method()) chosen.chief = chosen.methods.size();
+    chosen.methods.push_back(method);
+  }
+  return chosen;
 }
 
 double quantile(const std::vector<double>& ascending, double share) {

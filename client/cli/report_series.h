@@ -1,6 +1,7 @@
 // What the report draws: the numbers of an evaluation, one series a method.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,16 @@ namespace milepost {
 
 struct MethodSeries {
   std::string name;
-  std::string css_class;  // "m0" to "m7": its colour
+  std::string css_class;  // "m0" to "m8": its colour
   const MethodEvaluation* evaluation = nullptr;
   // One a fix; NaN where unknown.
   std::vector<double> route_m;             // where on the route
   std::vector<double> error_m;             // signed
   std::vector<double> localized_errors_m;  // the known ones of error_m, ascending
+  std::vector<double> lateral_error_m;     // signed
+  std::vector<double> heading_error_deg;   // signed
+
+  bool knows_lateral() const { return evaluation->summary.knows_lateral(); }
 };
 
 struct ReportSeries {
@@ -27,7 +32,9 @@ struct ReportSeries {
   // Errors up to this much are drawn to scale, in either direction; some of a method's may be
   // beyond.
   double error_limit_m = 0;
+  double lateral_limit_m = 0;  // the same of lateral errors
 
+  bool knows_lateral() const;  // some method
   // REQUIRES: there is a method.
   const MethodSeries& chief_method() const { return methods[chief]; }
   // Order of drawing: the chief last, on top.
@@ -39,6 +46,9 @@ ReportSeries report_series(const ReportInput& input);
 // The value below which that share of `ascending` lies, between neighbours in proportion.
 // NaN without values.
 double quantile(const std::vector<double>& ascending, double share);
+
+// The methods of which `shown` is true, with the scales of all; another chief where it is not.
+ReportSeries only(const ReportSeries& all, const std::function<bool(const MethodSeries&)>& shown);
 
 // How far a scale must reach for values that are no outliers: the greatest, but at most 2.5 times
 // the 90th percentile, which is four sigmas of a normal distribution; and a little headroom. 0

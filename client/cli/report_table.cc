@@ -1,8 +1,8 @@
 #include "client/cli/report_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -39,9 +39,13 @@ double within_share(const Summary& summary) {
                                       : std::numeric_limits<double>::quiet_NaN();
 }
 
+double off_normal(double share) { return std::abs(share - kWithin2SigmaOfNormal); }
+
 using S = Summary;
-const std::array<Column, 10>& columns() {
-  static const std::array<Column, 10> all = {{
+using Columns = std::vector<Column>;
+
+const Columns& along_columns() {
+  static const Columns all = {
       {"mean", "m", [](const S& s) { return number(s.mean_error_m, 3); },
        [](const S& s) { return s.mean_error_m; }},
       {"std", "m", [](const S& s) { return number(s.std_error_m, 3); },
@@ -54,14 +58,35 @@ const std::array<Column, 10>& columns() {
        [](const S& s) { return s.p95_error_m; }},
       {"localized", "", localized_text, [](const S& s) { return -localized_share(s); }},
       {"within 2\u03C3", "%", [](const S& s) { return number(100 * within_share(s), 1); },
-       [](const S& s) { return std::abs(within_share(s) - kWithin2SigmaOfNormal); }},
+       [](const S& s) { return off_normal(within_share(s)); }},
       {"map", "kB/m", [](const S& s) { return number(s.map_kb_per_m, 2); },
        [](const S& s) { return s.map_kb_per_m; }},
       {"latency p50", "ms", [](const S& s) { return number(s.latency_ms_p50, 1); },
        [](const S& s) { return s.latency_ms_p50; }},
       {"latency p99", "ms", [](const S& s) { return number(s.latency_ms_p99, 1); },
        [](const S& s) { return s.latency_ms_p99; }},
-  }};
+  };
+  return all;
+}
+
+const Columns& pose_columns() {
+  static const Columns all = {
+      {"lateral mean", "m", [](const S& s) { return number(s.lateral_error_m.mean, 3); },
+       [](const S& s) { return s.lateral_error_m.mean; }},
+      {"lateral p95", "m", [](const S& s) { return number(s.lateral_error_m.p95, 3); },
+       [](const S& s) { return s.lateral_error_m.p95; }},
+      {"lateral max", "m", [](const S& s) { return number(s.lateral_error_m.max, 3); },
+       [](const S& s) { return s.lateral_error_m.max; }},
+      {"lateral within 2\u03C3", "%",
+       [](const S& s) { return number(100 * s.lateral_within_2_sigma, 1); },
+       [](const S& s) { return off_normal(s.lateral_within_2_sigma); }},
+      {"heading mean", "\u00B0", [](const S& s) { return number(s.heading_error_deg.mean, 2); },
+       [](const S& s) { return s.heading_error_deg.mean; }},
+      {"heading p95", "\u00B0", [](const S& s) { return number(s.heading_error_deg.p95, 2); },
+       [](const S& s) { return s.heading_error_deg.p95; }},
+      {"heading max", "\u00B0", [](const S& s) { return number(s.heading_error_deg.max, 2); },
+       [](const S& s) { return s.heading_error_deg.max; }},
+  };
   return all;
 }
 
@@ -84,19 +109,20 @@ std::optional<std::string> best_text(const Column& column,
   return all_the_same ? std::nullopt : std::optional(text);
 }
 
-std::string head() {
+std::string head(const Columns& columns) {
   std::string html = "<thead><tr><th scope=\"col\">method</th>";
-  for (const Column& column : columns()) {
+  for (const Column& column : columns) {
     html += std::string("<th scope=\"col\">") + column.heading + " <small>" + column.unit +
             "</small></th>";
   }
   return html + "</tr></thead>\n";
 }
 
-std::string row(const Summary& summary, const std::vector<std::optional<std::string>>& best) {
+std::string row(const Summary& summary, const Columns& columns,
+                const std::vector<std::optional<std::string>>& best) {
   std::string html = "<tr><th scope=\"row\">" + escaped(summary.method) + "</th>";
-  for (std::size_t i = 0; i < columns().size(); ++i) {
-    const Column& column = columns().at(i);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Column& column = columns[i];
     const std::string text = column.text(summary);
     html += std::string("<td data-label=\"") + column.heading + "\" data-unit=\"" + column.unit +
             "\">" + (best[i] == text ? "<strong>" + text + "</strong>" : text) + "</td>";
@@ -104,14 +130,25 @@ std::string row(const Summary& summary, const std::vector<std::optional<std::str
   return html + "</tr>\n";
 }
 
+std::string table(const Columns& columns, const std::vector<MethodEvaluation>& methods) {
+  std::vector<std::optional<std::string>> best;
+  for (const Column& column : columns) best.push_back(best_text(column, methods));
+  std::string html = "<table>\n" + head(columns) + "<tbody>\n";
+  for (const MethodEvaluation& method : methods) html += row(method.summary, columns, best);
+  return html + "</tbody>\n</table>\n";
+}
+
 }  // namespace
 
 std::string summary_table(const std::vector<MethodEvaluation>& methods) {
-  std::vector<std::optional<std::string>> best;
-  for (const Column& column : columns()) best.push_back(best_text(column, methods));
-  std::string html = "<table>\n" + head() + "<tbody>\n";
-  for (const MethodEvaluation& method : methods) html += row(method.summary, best);
-  return html + "</tbody>\n</table>\n";
+  return table(along_columns(), methods);
+}
+
+std::string pose_table(const std::vector<MethodEvaluation>& methods) {
+  std::vector<MethodEvaluation> knowing;
+  std::copy_if(methods.begin(), methods.end(), std::back_inserter(knowing),
+               [](const MethodEvaluation& method) { return method.summary.knows_lateral(); });
+  return knowing.empty() ? "" : table(pose_columns(), knowing);
 }
 
 }  // namespace milepost

@@ -50,9 +50,13 @@ class Command(unittest.TestCase):
             self.assertGreater(float(row["map_kB_per_m"]), 0)
         self.assertEqual(rows["tracklet-regression-kalman"]["paper_mean_m"], "0.33")
         for name in ("report.html", "table2.txt", "calibration.csv", "claims.txt", "study-lateral.csv",
-                     "table1-pairs.txt", "normality.csv", "regressions.csv"):
+                     "table1-pairs.txt", "normality.csv", "regressions.csv", "precision.csv", "precision.txt",
+                     "latency-precision.csv"):
             self.assertGreater((out / name).stat().st_size, 100, name)
         page = (out / "report.html").read_text()
+        self.assertIn("<h2>Precision: along, lateral and heading</h2>", page)
+        self.assertIn("### Precision: along, lateral and heading", results.read_text())
+        self.assertIn(" p50 ms ", called.stdout)
         for number in (5, 6, 7, 8):
             self.assertIn(f"<h2>Figure {number}: ", page)
         self.assertIn(f"| milepost | **{rows['milepost']['mean_m']}** |", results.read_text())

@@ -1,19 +1,27 @@
 """Made-up results for the tests."""
+import math
+
 import numpy as np
 
 from laboratory.fixes import PairFixes
 
 
 def fixes(pair, method, errors_m, sigma_m=1.0, curved=None, lateral_m=None, kb_per_m=4.0, length_m=100.0,
-          map_name=None):
+          map_name=None, lateral_error_m=math.nan, lateral_sigma_m=math.nan, heading_error_deg=math.nan,
+          latency_ms=70.0):
     """A PairFixes with these errors, frames one metre apart; NaN: not localized."""
+    def of_frames(values):
+        return np.broadcast_to(np.asarray(values, float), len(errors_m)).copy()
+
     errors_m = np.asarray(errors_m, float)
     count = len(errors_m)
     return PairFixes(
         pair=pair, method=method, truth_along_m=np.arange(count, dtype=float), error_m=errors_m,
-        sigma_m=np.broadcast_to(np.asarray(sigma_m, float), count).copy(),
+        sigma_m=of_frames(sigma_m),
         curved=np.zeros(count, bool) if curved is None else np.asarray(curved, bool),
         lateral_m=np.zeros(count) if lateral_m is None else np.asarray(lateral_m, float),
+        lateral_error_m=of_frames(lateral_error_m), lateral_sigma_m=of_frames(lateral_sigma_m),
+        heading_error_deg=of_frames(heading_error_deg), latency_ms=of_frames(latency_ms),
         map_kb_per_m=kb_per_m, map_length_m=length_m, map_name=map_name or f"map-{pair}")
 
 

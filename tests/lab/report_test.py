@@ -32,7 +32,8 @@ def some_page():
         report.figure("6", figures.error_by_road_type(of), "c", METHODS),
         report.figure("7", figures.regressions(samples), "c"), report.table(regression_table(samples)),
         report.figure("8", figures.estimate_histogram(errors_m, statistics.normality_of(errors_m)), "c"),
-        report.figure("study", figures.study_figure({"milepost": [(1, 2, 3), (2, 3, 4)]}, "x", x_log=True), "c"),
+        report.figure("study", figures.study_figure({"milepost": [(1, 2, 3), (2, 3, 4)]}, "x", x_log=True,
+                                                    second_label="y"), "c"),
     ])
 
 

@@ -18,7 +18,8 @@ from laboratory.regressions import regression_table, samples_of
 from made_up import fixes, regression_rows
 
 HEADER = ("timestamp_s,filename,status,segment,along_m,sigma_m,latitude_deg,longitude_deg,matches,latency_ms,"
-          "truth_along_m,error_m\n")
+          "truth_along_m,error_m,lateral_m,heading_deg,lateral_sigma_m,truth_lateral_m,lateral_error_m,"
+          "heading_error_deg\n")
 DEGREES_PER_M = 1 / 111319.49  # of longitude on the equator
 
 
@@ -46,8 +47,8 @@ class FromFiles(unittest.TestCase):
             "filename,timestamp_s,east_m,north_m,up_m,heading_deg\n"
             "a.jpg,0,4,1.5,0,90\nb.jpg,1,8,-2,0,90\nc.jpg,2,12,0,0,90\n")
         (self.folder / "fixes-m.csv").write_text(
-            HEADER + "0,a.jpg,tracking,road,4.5,0.2,0,0,9,1,4.0,0.5\n1,b.jpg,tracking,road,7.7,0.2,0,0,9,1,8.0,-0.3\n"
-            "2,c.jpg,lost,,,,,,0,1,12.0,\n")
+            HEADER + "0,a.jpg,tracking,road,4.5,0.2,0,0,9,1,4.0,0.5,-1.4,90.5,0.1,-1.5,0.1,0.5\n"
+            "1,b.jpg,tracking,road,7.7,0.2,0,0,9,2,8.0,-0.3,,,,2,,\n2,c.jpg,lost,,,,,,0,3,12.0,,,,,0,,\n")
         (self.folder / "summary.json").write_text(json.dumps([{"method": "m", "map_kb_per_m": 2.5}]))
         stage = types.SimpleNamespace(result=self.folder)
         self.run_ = types.SimpleNamespace(pair=types.SimpleNamespace(name="p"), map_stage=stage, evaluation=stage,
@@ -57,6 +58,10 @@ class FromFiles(unittest.TestCase):
         (read,) = read_run(self.run_, self.folder)
         np.testing.assert_allclose(read.error_m, [0.5, -0.3, math.nan])
         np.testing.assert_allclose(read.lateral_m, [1.5, -2, math.nan], atol=1e-3)
+        np.testing.assert_allclose(read.lateral_error_m, [0.1, math.nan, math.nan])
+        np.testing.assert_allclose(read.lateral_sigma_m, [0.1, math.nan, math.nan])
+        np.testing.assert_allclose(read.heading_error_deg, [0.5, math.nan, math.nan])
+        np.testing.assert_allclose(read.latency_ms, [1, 2, 3])
         self.assertEqual(list(read.curved), [False] * 3)
         self.assertEqual((read.map_kb_per_m, read.map_length_m), (2.5, 40))
         self.assertEqual(tables.figure_cells([read]), [0.4, np.std([0.5, 0.3]), 0.5, 0.4, 2.5, 2, 3])
@@ -101,6 +106,39 @@ class Tables(unittest.TestCase):
         self.assertEqual([row[:3] for row in table.rows], [["curved", "tracklet-regression-kalman", 2.0],
                                                            ["straight", "tracklet-regression-kalman", 5.0]])
         self.assertEqual(table.rows[0][-3:], [0.35, 0.31, 1.82])
+
+    def precision_rows(self, table):
+        return [dict(zip((heading for heading, *_ in table.columns), row)) for row in table.rows]
+
+    def test_precision_pools_all_pairs_and_tells_each(self):
+        table = tables.precision_table([
+            fixes("a", "inverse-scale", [0.5, -0.1], sigma_m=0.1, kb_per_m=3.0),
+            fixes("a", "milepost", [0.02, -0.04], sigma_m=0.015, kb_per_m=0.5, lateral_error_m=[-0.01, 0.03],
+                  lateral_sigma_m=0.02, heading_error_deg=[0.2, -0.4]),
+            fixes("b", "milepost", [0.06, math.nan], sigma_m=0.1, kb_per_m=0.7, lateral_error_m=[0.11, math.nan],
+                  lateral_sigma_m=0.02, heading_error_deg=[0.6, math.nan])])
+        rows = self.precision_rows(table)
+        self.assertEqual([(row["pair"], row["method"]) for row in rows],
+                         [("all pairs", "inverse-scale"), ("all pairs", "milepost"), ("a", "inverse-scale"),
+                          ("a", "milepost"), ("b", "milepost")])
+        ours = rows[1]
+        for heading, value in {"along mean": 0.04, "along p95": 0.058, "along max": 0.06, "lateral mean": 0.05,
+                               "lateral p95": 0.102, "lateral max": 0.11, "heading mean": 0.4, "map": 0.6,
+                               "along in 2σ": 200 / 3, "lateral in 2σ": 200 / 3}.items():
+            self.assertAlmostEqual(ours[heading], value, msg=heading)
+        self.assertAlmostEqual(rows[3]["lateral mean"], 0.02)
+        self.assertRegex(table.as_text(),
+                         r"\na +inverse-scale +0\.300 +0\.480 +0\.50 +– +– +– +– +3\.00 +50\.0 +–\n")
+        self.assertIn("| all pairs | milepost | **0.040** |", table.as_markdown())
+
+    def test_the_time_of_a_frame_stands_in_a_table_of_its_own(self):
+        of = [fixes("a", "milepost", [0.1, 0.2, 0.3], latency_ms=[60, 70, 500]),
+              fixes("b", "milepost", [0.1], latency_ms=90)]
+        table = tables.precision_latency_table(of)
+        self.assertTrue(table.name.startswith("latency"))
+        self.assertEqual([row["p50"] for row in self.precision_rows(table)], [80, 70, 90])
+        self.assertIn(",map_kB_per_m,p50_ms,along_in_2σ_%,", table.as_csv())
+        self.assertNotIn("ms", [unit for _, unit, _ in tables.precision_table(of).columns])
 
     def test_lateral_offsets_by_bins(self):
         outcome = studies.lateral_outcome([fixes("a", "milepost", [1.0, 3.0] * 10, lateral_m=[0.1, -0.7] * 10)])

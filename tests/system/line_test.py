@@ -7,8 +7,12 @@ from commands import CLIENT, CommandTest, STREET, Server, rows_of, run
 
 FIX_COLUMNS = ["timestamp_s", "filename", "status", "segment", "along_m", "sigma_m", "latitude_deg",
                "longitude_deg", "matches", "latency_ms"]
+POSE_COLUMNS = ["lateral_m", "heading_deg", "lateral_sigma_m"]  # of methods that know them
+TRUTH_COLUMNS = ["truth_lateral_m", "lateral_error_m", "heading_error_deg"]
 SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m", "p95_error_m", "frames",
-                "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99"]
+                "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99",
+                "mean_lateral_error_m", "p95_lateral_error_m", "max_lateral_error_m", "lateral_within_2_sigma",
+                "mean_heading_error_deg", "p95_heading_error_deg", "max_heading_error_deg"]
 # Every method, and a bound on its mean error in metres: those that interpolate nothing are worse.
 METHODS = {"wisurf": 5.0, "scale-only": 1.5, "tracklet-matching": 1.0, "tracklet-regression": 1.0,
            "tracklet-regression-kalman": 1.0, "tracklet-regression-particle": 1.0,
@@ -36,7 +40,7 @@ class Line(CommandTest):
 
     def expect_fixes(self):
         rows = rows_of(self.fixes)
-        self.assertEqual(list(rows[0]), FIX_COLUMNS)
+        self.assertEqual(list(rows[0]), FIX_COLUMNS + POSE_COLUMNS)
         self.assertEqual([row["filename"] for row in rows],
                          [row["filename"] for row in rows_of(self.query / "trajectory.csv")])
         self.assertLessEqual({row["status"] for row in rows}, STATUSES)
@@ -70,7 +74,7 @@ class Line(CommandTest):
         self.assertEqual([entry["method"] for entry in summary], list(METHODS))
         frames = rows_of(self.query / "trajectory.csv")
         for entry in summary:
-            self.assertLessEqual(set(SUMMARY_KEYS), set(entry))
+            self.assertEqual(list(entry), SUMMARY_KEYS)
             self.assertEqual(entry["frames"], len(frames))
             self.assertGreaterEqual(entry["localized_frames"], 0.9 * len(frames))
             self.assertGreater(entry["map_kb_per_m"], 0.02)
@@ -81,7 +85,8 @@ class Line(CommandTest):
         self.assertLess(error_m["tracklet-regression"], error_m["scale-only"])
         self.assertAlmostEqual(error_m["tracklet-regression-particle"], error_m["tracklet-regression-kalman"], delta=0.1)
         report = (out / "report.html").read_text()
-        self.assertEqual(report.count("<table"), 1)
+        knows_lateral = any(entry["mean_lateral_error_m"] is not None for entry in summary)
+        self.assertEqual(report.count("<table"), 1 + knows_lateral)
         for method in METHODS:
             self.assertIn(f"<th scope=\"row\">{method}", report)
         self.assertNotRegex(report, r"(src|href)=\"http")  # self-contained
@@ -118,7 +123,7 @@ class Line(CommandTest):
             self.assertAlmostEqual(sum(residuals) / len(rows), 0, delta=1e-2)  # least squares
 
     def check_against_rows(self, entry, rows):
-        self.assertEqual(list(rows[0]), FIX_COLUMNS + ["truth_along_m", "error_m"])
+        self.assertEqual(list(rows[0]), FIX_COLUMNS + ["truth_along_m", "error_m"] + POSE_COLUMNS + TRUTH_COLUMNS)
         errors = []
         for row in rows:
             if not row["error_m"]:
@@ -128,6 +133,11 @@ class Line(CommandTest):
         self.assertEqual(len(errors), entry["localized_frames"])
         self.assertAlmostEqual(sum(errors) / len(errors), entry["mean_error_m"], delta=1e-3)
         self.assertAlmostEqual(max(errors), entry["max_error_m"], delta=1e-3)
+        lateral = [row for row in rows if row["lateral_m"]]
+        self.assertEqual(bool(lateral), entry["mean_lateral_error_m"] is not None)
+        for row in lateral:
+            self.assertAlmostEqual(float(row["lateral_m"]) - float(row["truth_lateral_m"]), float(row["lateral_error_m"]),
+                                   delta=2e-4)
 
     def test_refuses_methods_that_the_map_does_not_serve(self):
         self.build_map()

@@ -63,6 +63,21 @@ MethodEvaluation evaluation(const std::string& method, const Drive& drive,
   return result;
 }
 
+void know_lateral(MethodEvaluation& method) {
+  for (EvaluatedFix& fix : method.fixes) {
+    if (!fix.error_m) continue;
+    fix.truth_lateral_m = 1;
+    fix.lateral_error_m = 0.4 * *fix.error_m;
+    fix.heading_error_deg = 0.4 * *fix.error_m;
+    fix.frame.fix.lateral_m = 1 + *fix.lateral_error_m;
+    fix.frame.fix.lateral_sigma_m = 0.02;
+    fix.frame.fix.heading_deg = 53;
+  }
+  method.summary.lateral_error_m = {0.028, 0.084, 0.124};
+  method.summary.lateral_within_2_sigma = 0.67;
+  method.summary.heading_error_deg = {0.29, 0.85, 1.23};
+}
+
 std::vector<double> small_errors(std::size_t frames, double scale_m) {
   std::vector<double> errors_m;
   for (std::size_t i = 0; i < frames; ++i) {

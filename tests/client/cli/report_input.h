@@ -16,6 +16,10 @@ Drive straight_drive(std::size_t frames);
 MethodEvaluation evaluation(const std::string& method, const Drive& drive,
                             const std::vector<double>& errors_m);
 
+// Gives each fix a lateral, off by 0.4 times its error along, and a heading off by as many degrees.
+// The summary's numbers are plausible, not computed.
+void know_lateral(MethodEvaluation& method);
+
 // Small errors on both sides of zero, the same for each call.
 std::vector<double> small_errors(std::size_t frames, double scale_m);
 

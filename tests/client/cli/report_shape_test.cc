@@ -93,6 +93,8 @@ TEST(ReportShape, AMethodHasItsColourWhateverStandsBesideIt) {
     EXPECT_THAT(html, HasSubstr("<span class=\"m0\"><i></i>milepost</span>"));
     EXPECT_THAT(html, HasSubstr("<span class=\"m5\"><i></i>scale-only</span>"));
   }
+  EXPECT_THAT(legend_of({"inverse-scale", "milepost"}),
+              HasSubstr("<span class=\"m8\"><i></i>inverse-scale</span>"));
   const std::string html = legend_of({"mine", "milepost", "yours"});
   EXPECT_THAT(html, HasSubstr("<span class=\"m1\"><i></i>mine</span>"));
   EXPECT_THAT(html, HasSubstr("<span class=\"m2\"><i></i>yours</span>"));

@@ -17,6 +17,7 @@ namespace {
 using ::testing::ContainsRegex;
 using testing::evaluation;
 using ::testing::HasSubstr;
+using testing::know_lateral;
 using ::testing::Not;
 using testing::report_input;
 using testing::small_errors;
@@ -109,6 +110,57 @@ TEST(Report, MarksNothingWhereThereIsNothingToCompare) {
       report_html(report_input(drive, {evaluation("milepost", drive, small_errors(20, 0.05))}));
   EXPECT_THAT(html, Not(HasSubstr("<strong>")));
   EXPECT_THAT(html, Not(HasSubstr("is underlined")));
+}
+
+// The element of a section or figure with that heading.
+std::string part_of(const std::string& html, const std::string& heading, const std::string& end) {
+  const std::size_t start = html.find("<h2>" + heading + "</h2>");
+  return start == std::string::npos ? "" : html.substr(start, html.find(end, start) - start);
+}
+
+TEST(Report, LateralAndHeadingStandInATableOfTheMethodsThatKnowThem) {
+  const Drive drive = straight_drive(20);
+  MethodEvaluation ours = evaluation("milepost", drive, small_errors(20, 0.05));
+  know_lateral(ours);
+  const MethodEvaluation other = evaluation("inverse-scale", drive, small_errors(20, 0.2));
+  const std::string html = report_html(report_input(drive, {other, ours}));
+  EXPECT_TRUE(is_well_formed(html));
+  EXPECT_FALSE(says_not_a_number(html));
+  const std::string table = part_of(html, "Lateral position and heading", "</section>");
+  EXPECT_EQ(count_of(table, "<tr><th scope=\"row\">"), 1U);
+  for (const char* number : {"0.028", "0.084", "0.124", "67.0", "0.29", "0.85", "1.23"}) {
+    EXPECT_THAT(row_of(table, "milepost"), HasSubstr(std::string(">") + number + "<")) << number;
+  }
+  EXPECT_THAT(html, HasSubstr("To the side it is off by 0.028\u00A0m in the mean"));
+}
+
+TEST(Report, LateralErrorsAreDrawnOfTheMethodsThatKnowThem) {
+  const Drive drive = straight_drive(20);
+  MethodEvaluation ours = evaluation("milepost", drive, small_errors(20, 0.05));
+  know_lateral(ours);
+  MethodEvaluation far = ours;
+  far.summary.method = "far";
+  far.fixes[3].lateral_error_m = 5;
+  const MethodEvaluation other = evaluation("inverse-scale", drive, small_errors(20, 0.2));
+  const std::string html = report_html(report_input(drive, {other, ours, far}));
+  const std::string figure = part_of(html, "Error to the side", "</figure>");
+  EXPECT_THAT(figure, HasSubstr("lateral error (m)"));
+  EXPECT_THAT(figure, HasSubstr("m0 line chief"));
+  EXPECT_THAT(figure, HasSubstr("class=\"band\""));
+  EXPECT_THAT(figure, HasSubstr("67.0\u00A0% of its errors lie inside"));
+  EXPECT_THAT(figure, ContainsRegex("errors beyond [0-9.]+\u00A0m: 1 of far\\."));
+  EXPECT_THAT(figure, Not(HasSubstr("<i></i>inverse-scale</span>")));
+  EXPECT_THAT(figure, ContainsRegex("milepost: [^,]*, lateral [^,]* m, heading [^,]*\u00B0, "
+                                    "tracking"));
+}
+
+TEST(Report, WithoutLateralThereIsNeitherTableNorPanelOfIt) {
+  const Drive drive = straight_drive(20);
+  const std::string html =
+      report_html(report_input(drive, {evaluation("milepost", drive, small_errors(20, 0.05))}));
+  EXPECT_EQ(count_of(html, "<table>"), 1U);
+  EXPECT_THAT(html, Not(HasSubstr("ateral")));
+  EXPECT_THAT(html, Not(HasSubstr("To the side")));
 }
 
 TEST(Report, HeadingSaysWhatWasEvaluated) {

@@ -12,12 +12,12 @@ from .errors import LabError, WrongCall
 from .pairs import read_pairs
 from .runs import PROJECT, chosen_methods
 
-STUDIES = ("features", "tracklets", "spacing", "lateral")
+STUDIES = ("features", "tracklets", "spacing", "size", "calibration-error", "lateral")
 
 DESCRIPTION = """\
 Measures every method of milepost on a list of map and query drives, and sets the tracklet paper's figures beside
-them: Table 1 (methods), Table 2 (estimators on curved and straight road), Figures 5 to 8, calibration, the paper's
-claims one by one, and studies of what the error depends on.
+them: Table 1 (methods), Table 2 (estimators on curved and straight road), Figures 5 to 8, precision along, lateral and
+in heading, calibration, the paper's claims one by one, and studies of what the error depends on.
 
 PAIRS is a text file, one pair a line: NAME MAP_DRIVE QUERY_DRIVE [TAG...]. A line 'drives FOLDER' says where the
 drives after it are, a line 'simulate OPTION...' that milepost-simulator makes them. tests/lab/pairs holds lists."""
@@ -29,8 +29,8 @@ examples:
   tests/lab/run tests/lab/pairs/recordings.txt --method milepost tracklet-regression-kalman
   tests/lab/run tests/lab/pairs/town.txt --results tests/lab/RESULTS.md    and notes the figures there
 
-Results in OUT: report.html (open it in a browser), table1, table1-pairs, table2, calibration, normality, study-NAME and
-latency as .txt and .csv, claims.txt. The same programs and drives give the same bytes, but for latency.
+Results in OUT: report.html (open it in a browser), table1, table1-pairs, table2, precision, calibration, normality,
+study-NAME, latency and latency-precision as .txt and .csv, claims.txt. The same programs and drives give the same bytes, but for latency*.
 Stages are cached: a second call is quick, a run that was interrupted goes on where it was.
 Exit code: 0 all was done, 1 something failed, 2 a wrong call. tests/lab/README.md explains each table and figure."""
 

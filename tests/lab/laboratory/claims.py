@@ -13,6 +13,7 @@ NAMES = {
     "tracklet-regression": "regression", "tracklet-regression-kalman": "regression with the Kalman filter",
     "tracklet-regression-particle": "regression with the particle filter", "milepost": "milepost",
     "tracklet-regression-unaveraged": "regression with every observation's descriptor",
+    "inverse-scale": "regression on -1/scale",
 }
 
 

@@ -16,17 +16,18 @@ VARIABLES = {INK: "--ink", MUTED: "--muted", RULE: "--rule", GRID: "--grid"}
 # The report's class of each method, here and in milepost-client's own report.
 CLASSES = {"milepost": "m0", "tracklet-regression-kalman": "m1", "tracklet-regression": "m2",
            "tracklet-regression-particle": "m3", "tracklet-matching": "m4", "scale-only": "m5", "wisurf": "m6",
-           "tracklet-regression-unaveraged": "m7"}
+           "tracklet-regression-unaveraged": "m7", "inverse-scale": "m8"}
 STAND_INS = {"m0": "#0067a8", "m1": "#c94f00", "m2": "#00805c", "m3": "#b85a93", "m4": "#b87a00", "m5": "#3d9bd1",
-             "m6": "#555b66", "m7": "#7a5230"}
+             "m6": "#555b66", "m7": "#7a5230", "m8": "#6b4fc0"}
 VARIABLES |= {colour: f"--{name}" for name, colour in STAND_INS.items()}
 
 # A second mark beside the colour.
 DASHES = {"milepost": "-", "tracklet-regression-kalman": "-", "tracklet-regression": (0, (5, 1.5)),
           "tracklet-regression-particle": (0, (1.2, 1.2)), "tracklet-matching": (0, (5, 1.5, 1, 1.5)),
-          "scale-only": (0, (3, 1.2)), "wisurf": "-"}
+          "scale-only": (0, (3, 1.2)), "wisurf": "-", "inverse-scale": (0, (7, 1.5))}
 MARKERS = {"milepost": "o", "tracklet-regression-kalman": "s", "tracklet-regression": "^",
-           "tracklet-regression-particle": "D", "tracklet-matching": "v", "scale-only": "P", "wisurf": "X"}
+           "tracklet-regression-particle": "D", "tracklet-matching": "v", "scale-only": "P", "wisurf": "X",
+           "inverse-scale": "p"}
 
 WIDTH_IN = 9.6
 STYLE = {

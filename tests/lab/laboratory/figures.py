@@ -168,31 +168,36 @@ def estimate_histogram(errors_m, normality):
     return drawn(1, 2, 3.2, draw, width_ratios=[1.7, 1])
 
 
-def study_figure(points, x_label, x_log=False, with_size=True):
-    """`points`: of each method a list of (x, mean error m, kB/m), x increasing."""
+def study_figure(points, x_label, x_log=False, second_label=None, x_ticks=()):
+    """`points`: of each method a list of (x, mean error m, value of the second plot), x increasing.
+
+    Without a label there is no second plot. `x_ticks` are names of x = 0, 1, 2, ...
+    """
     def draw(axes):
-        error, *size = axes[0]
+        error, *second = axes[0]
         for method, values in points.items():
-            x, mean_m, kb_per_m = np.array(values, float).T
+            x, mean_m, second_values = np.array(values, float).T
             style = {"color": colour(method), "linestyle": DASHES.get(method, "-"), "marker": MARKERS.get(method, "o"),
                      "markersize": 4.5, "markeredgewidth": 0}
             error.plot(x, mean_m, **style)
-            if size:
-                size[0].plot(x, kb_per_m, **style)
+            if second:
+                second[0].plot(x, second_values, **style)
         error.set_ylabel("mean error (m)")
         for axis in axes[0]:
             axis.set_xlabel(x_label)
             axis.set_ylim(bottom=0)
+            if x_ticks:
+                axis.set_xticks(range(len(x_ticks)), x_ticks)
             if x_log:
                 axis.set_xscale("log")
                 ticks = sorted({x for values in points.values() for x, *_ in values})
                 axis.xaxis.set_major_locator(ticker.FixedLocator(ticks))
-                axis.xaxis.set_major_formatter(ticker.FuncFormatter(metres))
+                axis.xaxis.set_major_formatter(ticker.FuncFormatter(lambda x, _: f"{round(x, 2):g}"))
                 axis.xaxis.set_minor_locator(ticker.NullLocator())
-        if size:
-            size[0].set_ylabel("map (kB/m)")
+        if second:
+            second[0].set_ylabel(second_label)
 
-    return drawn(1, 2 if with_size else 1, 2.9, draw)
+    return drawn(1, 2 if second_label else 1, 2.9, draw)
 
 
 def means_beside_paper(fixes):

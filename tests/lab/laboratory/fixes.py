@@ -8,6 +8,11 @@ import numpy as np
 from .road import read_positions, read_roads
 
 
+# The arrays of a PairFixes.
+OF_FRAMES = ("truth_along_m", "error_m", "sigma_m", "curved", "lateral_m", "lateral_error_m", "lateral_sigma_m",
+             "heading_error_deg", "latency_ms")
+
+
 @dataclasses.dataclass
 class PairFixes:
     """One method on one pair. Arrays have one entry a frame of the query, NaN where there is no fix."""
@@ -19,6 +24,10 @@ class PairFixes:
     sigma_m: np.ndarray
     curved: np.ndarray     # whether the map's line is curved there
     lateral_m: np.ndarray  # of the recorded position, left of the map's line is positive
+    lateral_error_m: np.ndarray    # signed; NaN, too, where the method knows no lateral
+    lateral_sigma_m: np.ndarray
+    heading_error_deg: np.ndarray  # signed; NaN where the method knows no heading
+    latency_ms: np.ndarray         # differs from run to run
     map_kb_per_m: float
     map_length_m: float
     map_name: str
@@ -66,6 +75,8 @@ def read_method(run, folder, summary, roads, positions):
     return PairFixes(
         pair=run.pair.name, method=summary["method"], truth_along_m=truth_along_m,
         error_m=column(rows, "error_m"), sigma_m=column(rows, "sigma_m"), curved=curved, lateral_m=lateral_m,
+        lateral_error_m=column(rows, "lateral_error_m"), lateral_sigma_m=column(rows, "lateral_sigma_m"),
+        heading_error_deg=column(rows, "heading_error_deg"), latency_ms=column(rows, "latency_ms"),
         map_kb_per_m=summary["map_kb_per_m"] or np.nan,
         map_length_m=sum(road.length_m for road in roads.values()), map_name=run.map_stage.result.name)
 

@@ -49,6 +49,7 @@ class Laboratory:
             self.studies.append(studies.lateral_outcome(self.shown()))
         self.claims = paper_claims.claims_of(self.fixes, self.normality.get("tracklet-regression"))
         self.tables = [tables.table_1(self.fixes), tables.table_2(self.fixes), tables.calibration_table(self.fixes)]
+        self.precision = tables.precision_table(self.fixes)
         if self.normality:
             self.tables.append(tables.normality_table(self.normality))
 
@@ -71,7 +72,8 @@ class Laboratory:
         out.mkdir(parents=True, exist_ok=True)
         by_pair = tables.table_1_by_pair(self.fixes)
         more = [regression_table(self.samples)] if self.samples else []
-        for table in [*self.tables, *more, by_pair, self.latency(), *(study.table for study in self.studies)]:
+        for table in [*self.tables, *more, by_pair, self.precision, self.latency(),
+                      tables.precision_latency_table(self.fixes), *(study.table for study in self.studies)]:
             (out / f"{table.name}.txt").write_text(table.as_text(), encoding="utf-8")
             (out / f"{table.name}.csv").write_text(table.as_csv(), encoding="utf-8")
         (out / "claims.txt").write_text(self.claims_text(), encoding="utf-8")
@@ -88,11 +90,12 @@ class Laboratory:
 
     def text(self):
         """What a run prints at its end."""
-        return "\n".join([*(table.as_text() for table in [*self.tables, *(study.table for study in self.studies)]),
+        precision = tables.precision_latency_table(self.fixes)
+        return "\n".join([*(table.as_text() for table in [*self.tables, precision, *(study.table for study in self.studies)]),
                           self.claims_text()])
 
     def results_section(self, command):
-        return results.section(self.name, command, [*self.tables, tables.table_1_by_pair(self.fixes),
+        return results.section(self.name, command, [*self.tables, self.precision, tables.table_1_by_pair(self.fixes),
                                                     *(study.table for study in self.studies)], self.claims)
 
     def lead(self):
@@ -123,6 +126,7 @@ class Laboratory:
             report.figure("Mean error beside the paper's", figures.means_beside_paper(self.fixes),
                           "Discs: here, all pairs together. Upright strokes: Table 1 of the paper, on its own drives. "
                           "The axis is logarithmic."),
+            report.table(self.precision),
             report.claims(self.claims, CLAIMS_NOTE),
             report.figure("Figure 5: error along the route", figures.error_along_route(shown),
                           f"A panel a pair. Lines: mean of the absolute error over {figures.RUNNING_WINDOW_M:.0f} m of "
@@ -148,7 +152,7 @@ class Laboratory:
 
     def estimate_figures(self):
         parts = []
-        for method in ("tracklet-regression", "milepost"):
+        for method in ("tracklet-regression", "inverse-scale", "milepost"):
             if method in self.estimates:
                 parts.append(report.figure(
                     f"Figure 8: errors of single tracklets, {method}",

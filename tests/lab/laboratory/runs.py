@@ -9,6 +9,7 @@ from .errors import LabError, WrongCall
 from .stages import Stage
 
 PROJECT = pathlib.Path(__file__).resolve().parents[3]
+ALTER_DRIVE = pathlib.Path(__file__).with_name("altered_drive.py")
 BUILT = {"milepost-mapper": "mapper", "milepost-client": "client", "milepost-simulator": "tests/simulator"}
 
 
@@ -49,9 +50,25 @@ def name_with(name, settings):
     return "-".join([name, *(word.lstrip("-") for word in settings)])
 
 
+@dataclasses.dataclass(frozen=True)
+class Calibration:
+    """What a query drive says of its camera, against what was recorded."""
+
+    name: str
+    focal_factor: float = 1
+    yaw_deg: float = 0
+
+    @property
+    def as_recorded(self):
+        return self.focal_factor == 1 and self.yaw_deg == 0
+
+
+AS_RECORDED = Calibration("as recorded")
+
+
 @dataclasses.dataclass
 class Run:
-    """A pair's evaluation with one setting of the mapper."""
+    """A pair's evaluation with one setting of the mapper and one calibration of the query's camera."""
 
     pair: object
     map_stage: Stage
@@ -70,11 +87,11 @@ class Planner:
         self.estimates = ("--estimates",) if "--estimates" in help_of("evaluate") else ()
         self.planned = {}
 
-    def run(self, pair, mapper_settings=(), methods=None, estimates=False):
+    def run(self, pair, mapper_settings=(), methods=None, estimates=False, calibration=AS_RECORDED):
         """`mapper_settings` are words of `milepost-mapper build`; `methods` are the planner's by default."""
         mapping = self.map(pair, tuple(mapper_settings))
         evaluation = self.evaluate(pair, name_with(pair.name, mapper_settings), mapping,
-                                   tuple(methods or self.methods), self.estimates if estimates else ())
+                                   tuple(methods or self.methods), self.estimates if estimates else (), calibration)
         return Run(pair, mapping, evaluation)
 
     def simulate(self, place):
@@ -92,18 +109,31 @@ class Planner:
                 lambda: [drive()], needs)
         return self.once(("map", pair.place, pair.map_drive, settings), plan)
 
-    def evaluate(self, pair, name, mapping, methods, flags):
+    def alter(self, place, path, calibration):
+        settings = (str(calibration.focal_factor), str(calibration.yaw_deg))
+
         def plan():
-            needs, drive = self.drive(pair.place, pair.query_drive)
+            needs, drive = self.drive(place, path)
+            return Stage(
+                "alter", name_with(pathlib.PurePath(path).name, settings), ALTER_DRIVE, settings,
+                lambda out, threads: [drive(), out / "drive", *settings], lambda: [drive()], needs)
+        return self.once(("alter", place, path, settings), plan)
+
+    def evaluate(self, pair, name, mapping, methods, flags, calibration):
+        def plan():
+            needs, drive = self.drive(pair.place, pair.query_drive, calibration)
             return Stage(
                 "evaluate", name, program("milepost-client"), (*methods, *flags),
                 lambda out, threads: ["evaluate", "--map", mapping.result / "drive.map", "--drive", drive(),
                                       "--out", out, *flags, "--method", *methods],
                 lambda: [mapping.result / "drive.map", drive()], (mapping, *needs))
-        return self.once(("evaluate", pair, mapping, methods, flags), plan)
+        return self.once(("evaluate", pair, mapping, methods, flags, calibration), plan)
 
-    def drive(self, place, path):
+    def drive(self, place, path, calibration=AS_RECORDED):
         """What has to be done before the drive is there, and a function that says where it is then."""
+        if not calibration.as_recorded:
+            alteration = self.alter(place, path, calibration)
+            return (alteration,), lambda: alteration.result / "drive"
         if place.folder:
             return (), lambda: place.folder / path
         simulation = self.simulate(place)

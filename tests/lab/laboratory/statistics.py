@@ -41,14 +41,37 @@ def kb_per_m(fixes):
     return sum(each.map_kb_per_m * each.map_length_m for each in maps.values()) / length_m if maps else math.nan
 
 
+def pooled(fixes, name):
+    """One array of a list of PairFixes, all frames together."""
+    return np.concatenate([getattr(each, name) for each in fixes]) if fixes else np.array([])
+
+
+@dataclasses.dataclass(frozen=True)
+class Spread:
+    """Of absolute errors; NaN where none is known."""
+
+    mean: float
+    p95: float
+    max: float
+
+
+def spread_of(errors):
+    """Of those that are known."""
+    absolute = np.abs(errors[np.isfinite(errors)])
+    if not len(absolute):
+        return Spread(math.nan, math.nan, math.nan)
+    return Spread(float(absolute.mean()), float(np.quantile(absolute, 0.95)), float(absolute.max()))
+
+
+def share_within(errors, sigmas, count):
+    """Share of the errors within so many of their claimed sigmas; NaN where none is claimed."""
+    known = np.isfinite(errors) & np.isfinite(sigmas)
+    return float((np.abs(errors[known]) <= count * sigmas[known]).mean()) if known.any() else math.nan
+
+
 def calibration(fixes):
     """Share of localized frames whose error is within 1, 2, 3 of the claimed sigma."""
-    error_m = np.concatenate([each.error_m for each in fixes])
-    sigma_m = np.concatenate([each.sigma_m for each in fixes])
-    known = np.isfinite(error_m) & np.isfinite(sigma_m)
-    if not known.any():
-        return (math.nan,) * len(SIGMAS)
-    return tuple(float((np.abs(error_m[known]) <= count * sigma_m[known]).mean()) for count in SIGMAS)
+    return tuple(share_within(pooled(fixes, "error_m"), pooled(fixes, "sigma_m"), count) for count in SIGMAS)
 
 
 @dataclasses.dataclass(frozen=True)

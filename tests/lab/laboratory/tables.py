@@ -6,7 +6,10 @@ import io
 import math
 import textwrap
 
+import numpy as np
+
 from . import paper, statistics
+from .fixes import OF_FRAMES
 from .road import CURVATURE_WINDOW_M, CURVED_RADIUS_M
 
 TEXT_WIDTH = 110  # of notes
@@ -153,12 +156,59 @@ def table_1_by_pair(fixes):
     return table
 
 
+ALL_PAIRS = "all pairs"
+
+
+def precision_table(fixes):
+    """Position and heading of each method: all pairs together, and pair by pair."""
+    table = Table(
+        "precision", "Precision: along, lateral and heading",
+        "Mean, 95th percentile and maximum of the absolute errors along the route and to the side, mean of the "
+        "absolute heading error, over the frames of which the method knows them; –: it knows none. Map: what a vehicle "
+        "holds for the method on each metre of road. In 2σ: share of the errors within twice the standard deviation "
+        "that the method itself claims; 95.4 % would be honest. Of all pairs together each frame counts alike.",
+        [("pair", "", None), ("method", "", None), ("along mean", "m", 3), ("along p95", "m", 3), ("along max", "m", 2),
+         ("lateral mean", "m", 3), ("lateral p95", "m", 3), ("lateral max", "m", 2), ("heading mean", "°", 2),
+         ("map", "kB/m", 2), ("along in 2σ", "%", 1), ("lateral in 2σ", "%", 1)],
+        best={"along mean", "along p95", "along max", "lateral mean", "lateral p95", "lateral max", "heading mean",
+              "map"}, groups=1)
+    for pair, method, here in by_pair_and_method(fixes):
+        table.rows.append([pair, method, *precision_cells(here)])
+    return table
+
+
+def precision_latency_table(fixes):
+    """The same with the time of a frame, which is not the same each time: it stays out of the report."""
+    table = precision_table(fixes)
+    place = [heading for heading, *_ in table.columns].index("map") + 1
+    table.name = "latency-precision"
+    table.note += " p50: half of the frames take no longer from the decoded image to the fix, while other stages run."
+    table.columns.insert(place, ("p50", "ms", 1))
+    for row, (_, _, here) in zip(table.rows, by_pair_and_method(fixes)):
+        row.insert(place, float(np.median(statistics.pooled(here, "latency_ms"))))
+    return table
+
+
+def by_pair_and_method(fixes):
+    """(pair, method, PairFixes) of all pairs together, then of each pair."""
+    every = [(ALL_PAIRS, fixes), *((pair, [each for each in fixes if each.pair == pair]) for pair in pairs_of(fixes))]
+    return [(pair, method, of_method(here, method)) for pair, here in every for method in methods_of(here)]
+
+
+def precision_cells(fixes):
+    along, lateral, heading = (statistics.spread_of(statistics.pooled(fixes, name))
+                               for name in ("error_m", "lateral_error_m", "heading_error_deg"))
+    within = [100 * statistics.share_within(statistics.pooled(fixes, error), statistics.pooled(fixes, sigma), 2)
+              for error, sigma in (("error_m", "sigma_m"), ("lateral_error_m", "lateral_sigma_m"))]
+    return [along.mean, along.p95, along.max, lateral.mean, lateral.p95, lateral.max, heading.mean,
+            statistics.kb_per_m(fixes), *within]
+
+
 def on_road(fixes, road_type):
     """The PairFixes with the frames of one road type only."""
     def only(each):
         kept = each.curved if road_type == "curved" else ~each.curved
-        return dataclasses.replace(each, **{name: getattr(each, name)[kept] for name in (
-            "truth_along_m", "error_m", "sigma_m", "curved", "lateral_m")})
+        return dataclasses.replace(each, **{name: getattr(each, name)[kept] for name in OF_FRAMES})
     return [only(each) for each in fixes]
 
 

@@ -1,0 +1,124 @@
+"""What studies ask the programs to do, and what they make of the answers."""
+import json
+import math
+import pathlib
+import subprocess
+import tempfile
+import types
+import unittest
+from unittest import mock
+
+from laboratory import studies
+from laboratory.pairs import Pair, Place
+from laboratory.runs import ALTER_DRIVE, Calibration, Planner
+from laboratory.stages import Cache
+from made_up import fixes
+
+METHODS = ["tracklet-regression-kalman", "milepost"]
+PAIR = Pair("p", Place(folder=pathlib.Path("/drives")), "a-map", "a-query")
+
+
+def words_of(stage):
+    return [str(word) for word in stage.words(pathlib.Path("/out"), 1)]
+
+
+def write_drive(folder):
+    (folder / "frames").mkdir(parents=True)
+    (folder / "frames/0.jpg").write_bytes(b"image")
+    (folder / "trajectory.csv").write_text("filename\n0.jpg\n")
+    (folder / "drive.json").write_text(json.dumps({
+        "name": "a", "camera": {"width_px": 600, "focal_px": [400.0, 200.0], "principal_px": [300.0, 250.0]}}))
+
+
+class Plans(unittest.TestCase):
+    def plan(self, name):
+        return studies.plan(studies.STUDIES[name], Planner(METHODS), [PAIR], METHODS)
+
+    def test_size_builds_a_map_of_each_target_for_the_default_method(self):
+        planned = self.plan("size")
+        self.assertEqual(list(planned), [0.15, 0.25, 0.35, 0.5, 0.8, 1.5])
+        for value, (run,) in planned.items():
+            words = words_of(run.map_stage)
+            self.assertEqual(words[words.index("--size-target-kb-per-m") + 1], str(value))
+            run.map_stage.result = pathlib.Path("/map")
+            self.assertEqual(words_of(run.evaluation)[-2:], ["--method", "milepost"])
+
+    def test_calibration_error_localizes_an_altered_drive_on_one_map(self):
+        planned = {calibration.name: run for calibration, (run,) in self.plan("calibration-error").items()}
+        self.assertEqual(list(planned), ["as recorded", "focal -5 %", "focal +5 %", "yaw 2°"])
+        self.assertEqual(len({run.map_stage for run in planned.values()}), 1)
+        self.assertNotIn("--size-target-kb-per-m", words_of(planned["yaw 2°"].map_stage))
+        for run in planned.values():
+            for need in run.evaluation.needs:
+                need.result = pathlib.Path("/results") / need.kind
+        drives = {name: words_of(run.evaluation)[words_of(run.evaluation).index("--drive") + 1]
+                  for name, run in planned.items()}
+        self.assertEqual(drives["as recorded"], "/drives/a-query")
+        self.assertEqual(drives["yaw 2°"], "/results/alter/drive")
+        altered = {name: words_of(run.evaluation.needs[1])[-2:] for name, run in planned.items()
+                   if name != "as recorded"}
+        self.assertEqual(altered, {"focal -5 %": ["0.95", "0"], "focal +5 %": ["1.05", "0"], "yaw 2°": ["1", "2"]})
+
+    def test_an_altered_drive_is_a_stage_that_needs_no_program_of_milepost(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = pathlib.Path(temporary)
+            write_drive(folder / "query")
+            stage = Planner(METHODS).alter(Place(folder=folder), "query", Calibration("x", focal_factor=1.05))
+            with Cache(folder / "cache", 1).opened() as cache:
+                cache.run([stage])
+            camera = json.loads((stage.result / "drive/drive.json").read_text())["camera"]
+            self.assertEqual(camera["focal_px"], [420, 210])
+
+
+class AlteredDrive(unittest.TestCase):
+    def test_only_the_camera_is_another(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = pathlib.Path(temporary)
+            write_drive(folder / "query")
+            before = (folder / "query/drive.json").read_text()
+            subprocess.run([ALTER_DRIVE, folder / "query", folder / "out", "1", "2"], check=True)
+            description = json.loads((folder / "out/drive.json").read_text())
+            self.assertEqual(description["name"], "a")
+            self.assertEqual(description["camera"]["focal_px"], [400, 200])
+            x_px, y_px = description["camera"]["principal_px"]
+            self.assertAlmostEqual(x_px, 300 + 400 * math.tan(math.radians(2)))
+            self.assertEqual(y_px, 250)
+            self.assertEqual((folder / "out/frames/0.jpg").read_bytes(), b"image")
+            self.assertEqual((folder / "out/trajectory.csv").read_text(), "filename\n0.jpg\n")
+            self.assertEqual((folder / "query/drive.json").read_text(), before)
+
+
+class Outcomes(unittest.TestCase):
+    def outcome(self, name, of_value):
+        """`of_value`: {value of the study: PairFixes}."""
+        runs = {value: [types.SimpleNamespace(pair=PAIR, map_file="m", found=found)]
+                for value, found in of_value.items()}
+        with mock.patch.object(studies, "read_run", lambda run, drive: run.found):
+            return studies.outcome(studies.STUDIES[name], runs, lambda pair: None)
+
+    def test_size_draws_along_and_lateral_against_the_size_that_came_out(self):
+        outcome = self.outcome("size", {
+            0.5: [fixes("p", "milepost", [0.1, -0.3], kb_per_m=0.48, lateral_error_m=[0.75, -0.25])],
+            0.15: [fixes("p", "milepost", [0.4, 0.4], kb_per_m=0.16, lateral_error_m=0.2)]})
+        self.assertEqual(outcome.points, {"milepost": [(0.16, 0.4, 0.2), (0.48, 0.2, 0.5)]})
+        self.assertIn("mean lateral error (m)", outcome.figure)
+        self.assertRegex(outcome.table.as_text(),
+                         r"\n0\.5 +milepost +0\.200 +0\.100 +0\.30 +0\.500 +0\.725 +– +0\.48 ")
+
+    def test_calibrations_stand_side_by_side(self):
+        recorded, _, wide, _ = studies.CALIBRATIONS
+        outcome = self.outcome("calibration-error", {
+            recorded: [fixes("p", "inverse-scale", [0.1]), fixes("p", "milepost", [0.1], lateral_error_m=0.1)],
+            wide: [fixes("p", "inverse-scale", [0.5]), fixes("p", "milepost", [0.2], lateral_error_m=0.3,
+                                                             heading_error_deg=-1.5)]})
+        self.assertEqual([point[:2] for point in outcome.points["inverse-scale"]], [(0, 0.1), (2, 0.5)])
+        self.assertEqual(outcome.points["milepost"], [(0, 0.1, 0.1), (2, 0.2, 0.3)])
+        self.assertIn("focal +5 %", outcome.figure)
+        rows = [dict(zip((heading for heading, *_ in outcome.table.columns), row)) for row in outcome.table.rows]
+        self.assertEqual(rows[3]["calibration"], "focal +5 %")
+        self.assertEqual(rows[3]["heading mean"], 1.5)
+        self.assertIn("| focal +5 % | inverse-scale | 0.500 | 0.000 | 0.50 | – | – | – |", outcome.table.as_markdown())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
