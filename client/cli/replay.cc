@@ -130,7 +130,8 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
                  "add the receiver's positions (timestamp_s,latitude_deg,longitude_deg,sigma_m)"};
   }
   std::vector<Runner> runners;
-  const QueryCamera camera{drive.camera.width_px, drive.camera.focal_x_px, drive.camera.focal_y_px};
+  const QueryCamera camera{drive.camera.width_px, drive.camera.focal_x_px, drive.camera.focal_y_px,
+                           drive.camera.principal_x_px, drive.camera.principal_y_px};
   for (const Method& method : methods) {
     LocalizerSettings settings;
     settings.method = method;

@@ -18,4 +18,4 @@ milepost_library(report
     cli/report_spread.cc
     ${PROJECT_BINARY_DIR}/generated/client/cli/report_style.cc
     cli/report_table.cc
-  PUBLIC milepost::base milepost::geo)
+  PUBLIC milepost::base milepost::geo Eigen3::Eigen)

@@ -5,19 +5,20 @@ namespace milepost {
 Result<std::unique_ptr<Follower>> make_follower(const SegmentSession& session,
                                                 const QueryCamera& camera,
                                                 const LocalizerSettings& settings) {
-  const auto* tracklets = std::get_if<TrackletMethod>(&settings.method.how);
-  const bool of_tracklets =
-      session.items == LayerItems::tracklets || session.items == LayerItems::observations;
-  const bool usable = tracklets ? of_tracklets : session.items == LayerItems::frames;
-  if (!usable) {
-    return Error{ErrorCode::corrupt,
-                 "map '" + session.layer.version.map + "', layer '" + session.layer.layer + "'",
-                 std::string("the method cannot use its ") + name_of(session.items),
-                 "build the map anew"};
+  const auto& how = settings.method.how;
+  const LayerItems items = session.items;
+  if (const auto* landmarks = std::get_if<LandmarkMethod>(&how)) {
+    if (items == LayerItems::landmarks)
+      return make_landmark_follower(session, camera, settings, *landmarks);
+  } else if (const auto* tracklets = std::get_if<TrackletMethod>(&how)) {
+    if (items == LayerItems::tracklets || items == LayerItems::observations)
+      return make_tracklet_follower(session, camera, settings, *tracklets);
+  } else if (items == LayerItems::frames) {
+    return make_warp_follower(session, camera, settings, std::get<WarpMethod>(how));
   }
-  return tracklets ? make_tracklet_follower(session, camera, settings, *tracklets)
-                   : make_warp_follower(session, camera, settings,
-                                        std::get<WarpMethod>(settings.method.how));
+  return Error{ErrorCode::corrupt,
+               "map '" + session.layer.version.map + "', layer '" + session.layer.layer + "'",
+               std::string("the method cannot use its ") + name_of(items), "build the map anew"};
 }
 
 }  // namespace milepost

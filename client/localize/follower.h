@@ -51,6 +51,13 @@ std::unique_ptr<Follower> make_tracklet_follower(const SegmentSession& session,
                                                  const LocalizerSettings& settings,
                                                  const TrackletMethod& method);
 
+// By landmarks: matches, a pose, and the belief that carries it on.
+// REQUIRES: a layer of landmarks, so that the session has a codebook.
+std::unique_ptr<Follower> make_landmark_follower(const SegmentSession& session,
+                                                 const QueryCamera& camera,
+                                                 const LocalizerSettings& settings,
+                                                 const LandmarkMethod& method);
+
 // By whole frames: dynamic time warping.
 std::unique_ptr<Follower> make_warp_follower(const SegmentSession& session,
                                              const QueryCamera& camera,

@@ -100,6 +100,11 @@ Fix Localizer::Impl::located(const QueryFrame& frame, FixStatus status, int matc
   fix.along_m = std::clamp(position.along_m, 0.0, session->line.length_m());
   fix.sigma_m = position.sigma_m;
   fix.position = session->line.point_at(*fix.along_m);
+  if (position.across) {
+    fix.lateral_m = position.across->lateral_m;
+    fix.lateral_sigma_m = position.across->lateral_sigma_m;
+    fix.heading_deg = position.across->heading_deg;
+  }
   fix.matches = matches;
   return fix;
 }

@@ -62,6 +62,8 @@ struct QueryCamera {
   int width_px = 0;
   double focal_x_px = 0;
   double focal_y_px = 0;
+  double principal_x_px = 0;
+  double principal_y_px = 0;
 };
 
 // What one tracklet said of a frame that was followed, for those who study estimates.

@@ -35,7 +35,8 @@ WarpMethod warp_method(FrameComparison comparison) {
   return method;
 }
 
-TrackletMethod milepost_method() {
+// Ours before landmarks: the regression on -1/scale.
+TrackletMethod inverse_scale_method() {
   TrackletMethod method;
   method.match.max_distance_ratio = 0.85;
   method.match.same_place_m = 2.0;
@@ -54,7 +55,8 @@ const std::vector<Method>& methods() {
       {"tracklet-regression-kalman", "tracklets-scale", paper_method(PaperFilter::kalman)},
       {"tracklet-regression-particle", "tracklets-scale", paper_method(PaperFilter::particle)},
       {"tracklet-regression-unaveraged", "observations", unaveraged_method()},
-      {kDefaultMethod, "tracklets", milepost_method()},
+      {"inverse-scale", "tracklets-inverse-scale", inverse_scale_method()},
+      {kDefaultMethod, "tracklets", LandmarkMethod{}},
   };
   return all;
 }

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "client/localize/estimate.h"
+#include "client/localize/landmark_matching.h"
 #include "client/localize/matching.h"
+#include "client/localize/pose_consensus.h"
 #include "client/localize/scale_change.h"
 #include "client/localize/tracker.h"
 #include "schema/base/result.h"
@@ -38,10 +40,41 @@ struct WarpMethod {
   double band_m = 10;         // of the map's frames, around where a step may lead
 };
 
+// Localizes by landmarks: along, lateral and heading.
+struct LandmarkMethod {
+  LandmarkMatchSettings match;
+  PoseSolverSettings solver;
+  ConsensusSettings consensus;
+  PoseMotionSettings motion;
+  RobustSettings vote;  // over along, where a start is looked for
+
+  // What is believed at the start, about the line where the votes are densest.
+  double start_along_sigma_m = 2;
+  double start_lateral_sigma_m = 2.5;
+  double start_up_sigma_m = 0.5;
+  double start_heading_sigma_deg = 6;
+  double start_tilt_sigma_deg = 2.5;
+  double start_speed_mps = 8;
+  double start_speed_sigma_mps = 10;
+  double start_yaw_rate_sigma = 0.2;  // rad/s
+  double mounting_sigma_deg = 2;
+  double focal_sigma = 0.01;       // of a calibration, as part of the focal length ...
+  double principal_sigma = 0.004;  // ... and of the principal point, in focal lengths
+
+  double min_region_m = 1;  // searched to either side, beside ...
+  double region_sigmas = 3;
+  double max_expected_sigma_m =
+      0.8;                          // of along, up to which landmarks are searched in their places
+  int min_support = 5;              // matches that agree, when each was found in its place
+  double min_agreeing_part = 0.35;  // of the matches found in their places
+  double search_widening = 3;       // of the belief's sigmas, where they were not found there
+  double min_sigma_m = 0.02;        // of along and lateral: what maps themselves may be off
+};
+
 struct Method {
   std::string name;
   std::string layer;  // of the map, that it needs
-  std::variant<TrackletMethod, WarpMethod> how;
+  std::variant<TrackletMethod, WarpMethod, LandmarkMethod> how;
 };
 
 inline constexpr const char* kDefaultMethod = "milepost";

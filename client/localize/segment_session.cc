@@ -10,6 +10,7 @@ namespace {
 struct LayerParameters {
   LayerItems items = LayerItems::tracklets;
   double focal_px = 0;  // geometric mean
+  std::optional<Codebook> codebook = std::nullopt;
 };
 
 Result<LayerParameters> parameters_of_layer(const MapDescription& map, const std::string& layer) {
@@ -34,7 +35,14 @@ Result<LayerParameters> parameters_of_layer(const MapDescription& map, const std
   if (!two_numbers) return corrupt("focal_px is not two numbers");
   const double focal_px = std::sqrt(focal[0].get<double>() * focal[1].get<double>());
   if (!(focal_px > 0 && std::isfinite(focal_px))) return corrupt("focal_px is out of range");
-  return LayerParameters{*items, focal_px};
+  LayerParameters parameters{*items, focal_px};
+  if (*items == LayerItems::landmarks) {
+    const Result<Codebook> codebook =
+        Codebook::from_json(json.value("codebook", nlohmann::json()).dump());
+    if (!codebook) return corrupt("its codebook: " + codebook.error().what);
+    parameters.codebook = *codebook;
+  }
+  return parameters;
 }
 
 }  // namespace
@@ -55,7 +63,8 @@ Result<SegmentSession> open_session(const LayerSource& layer) {
                  "map '" + layer.version.map + "', segment '" + layer.segment + "'",
                  line.error().what, "build the map anew"};
   }
-  return SegmentSession{layer, parameters->items, std::move(*line), *feature, parameters->focal_px};
+  return SegmentSession{layer,    parameters->items,    std::move(*line),
+                        *feature, parameters->focal_px, parameters->codebook};
 }
 
 }  // namespace milepost

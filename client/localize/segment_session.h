@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "client/localize/tile_window.h"
+#include "schema/feature/codebook.h"
 #include "schema/feature/types.h"
 #include "schema/geo/route_line.h"
 #include "schema/tile/layer_items.h"
@@ -15,8 +17,9 @@ struct SegmentSession {
   LayerSource layer;  // that the method needs
   LayerItems items = LayerItems::tracklets;
   RouteLine line;
-  FeatureParameters feature;  // that the map's descriptors were made with
-  double map_focal_px = 0;    // geometric mean of the map camera's focal lengths
+  FeatureParameters feature;         // that the map's descriptors were made with
+  double map_focal_px = 0;           // geometric mean of the map camera's focal lengths
+  std::optional<Codebook> codebook;  // of a layer of landmarks
 };
 
 // Errors: those of the source; invalid_input if the map has no layer of that name; corrupt.

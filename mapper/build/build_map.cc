@@ -1,9 +1,11 @@
 #include "mapper/build/build_map.h"
 
+#include <limits>
 #include <set>
 
 #include "mapper/build/layer_builder.h"
 #include "mapper/build/layers.h"
+#include "mapper/build/sampled_codebook.h"
 #include "mapper/build/segment_plan.h"
 #include "mapper/frames/frame_pipeline.h"
 #include "schema/store/map_store.h"
@@ -21,23 +23,27 @@ struct NamedBuilder {
 // Follows the features of one segment's frames through to its tiles.
 class SegmentBuilder {
  public:
-  SegmentBuilder(const Drive& drive, const SegmentPlan& plan, const BuildSettings& settings)
+  SegmentBuilder(const Drive& drive, const SegmentPlan& plan, const Codebook& codebook,
+                 const BuildSettings& settings)
       : drive_(drive),
         plan_(plan),
         settings_(settings),
+        context_{plan.id, drive.camera, plan.line, codebook, settings.tile_length_m},
         follower_(settings.follow, drive.camera.width_px) {
     for (const Layer& layer : layers_of(settings)) {
-      layers_.push_back({layer.name, make_layer_builder(layer, plan.id, settings.tile_length_m)});
+      layers_.push_back({layer.name, make_layer_builder(layer, context_)});
     }
   }
 
   Status run(int jobs, MapWriter& map, BuildReport& report, BuildProgress& progress,
              const OnProgress& on_progress) {
     FramePipeline frames(drive_, plan_.frame_indices, settings_.feature, settings_.lab, jobs);
-    for (const double along_m : plan_.line.along_m()) {
+    for (std::size_t i = 0; i < plan_.frame_indices.size(); ++i) {
+      const double along_m = plan_.line.along_m()[i];
+      const Frame& recorded = drive_.frames[plan_.frame_indices[i]];
       const Result<ExtractedFrame> frame = frames.next();
       if (!frame) return frame.error();
-      for (const NamedBuilder& layer : layers_) layer.builder->add_frame(*frame, along_m);
+      for (const NamedBuilder& layer : layers_) layer.builder->add_frame(recorded, *frame, along_m);
       const std::vector<Track> ended = follower_.add(frame->features, along_m);
       const Status written = add_and_write(ended, follower_.oldest_open_along_m(), map, report);
       if (!written.ok()) return written;
@@ -47,8 +53,7 @@ class SegmentBuilder {
                      "stopped on request, no map was written", ""};
       }
     }
-    return add_and_write(follower_.finish(), plan_.line.length_m() + settings_.tile_length_m, map,
-                         report);
+    return add_and_write(follower_.finish(), std::numeric_limits<double>::infinity(), map, report);
   }
 
  private:
@@ -74,6 +79,7 @@ class SegmentBuilder {
   const Drive& drive_;
   const SegmentPlan& plan_;
   const BuildSettings& settings_;
+  SegmentContext context_;
   FeatureFollower follower_;
   std::vector<NamedBuilder> layers_;
 };
@@ -115,19 +121,21 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     if (!checked.ok()) return checked.error();
   }
 
+  const Result<Codebook> codebook = sampled_codebook(drives, plans, settings, jobs);
+  if (!codebook) return codebook.error();
   Result<MapWriter> map = MapWriter::create(map_file);
   if (!map) return map.error();
   Status status = map->set_feature_json(to_json(settings.feature));
   for (const Layer& layer : layers_of(settings)) {
     if (status.ok())
-      status = map->add_layer(
-          layer.name, parameters_json(layer, drives.front().camera, settings.tile_length_m));
+      status = map->add_layer(layer.name, parameters_json(layer, drives.front().camera, *codebook,
+                                                          settings.tile_length_m));
   }
   BuildReport report;
   for (std::size_t i = 0; i < plans.size() && status.ok(); ++i) {
     status = map->add_segment(stored_segment(plans[i]));
     if (status.ok()) {
-      status = SegmentBuilder(drives[i], plans[i], settings)
+      status = SegmentBuilder(drives[i], plans[i], *codebook, settings)
                    .run(jobs, *map, report, progress, on_progress);
     }
     report.length_m += plans[i].line.length_m();

@@ -1,7 +1,6 @@
 #include "mapper/build/layer_builder.h"
 
-#include <stdexcept>
-
+#include "mapper/build/landmark_layer_builder.h"
 #include "mapper/tiles/tile_assembler.h"
 #include "schema/tile/codec.h"
 
@@ -84,7 +83,7 @@ class FrameLayerBuilder : public LayerBuilder {
   FrameLayerBuilder(const FrameParts& parts, std::string segment, double tile_length_m)
       : parts_(parts), segment_(std::move(segment)), assembler_(tile_length_m) {}
 
-  void add_frame(const ExtractedFrame& frame, double along_m) override {
+  void add_frame(const Frame& /*recorded*/, const ExtractedFrame& frame, double along_m) override {
     DatabaseFrame stored{along_m, {}, std::nullopt};
     if (parts_.features) stored.features = frame.features;
     if (parts_.image) stored.image = frame.image;
@@ -106,15 +105,17 @@ class FrameLayerBuilder : public LayerBuilder {
 
 }  // namespace
 
-std::unique_ptr<LayerBuilder> make_layer_builder(const Layer& layer, const std::string& segment,
-                                                 double tile_length_m) {
+std::unique_ptr<LayerBuilder> make_layer_builder(const Layer& layer,
+                                                 const SegmentContext& context) {
+  const std::string& segment = context.segment;
+  const double tile_length_m = context.tile_length_m;
   switch (layer.items) {
+    case LayerItems::landmarks:
+      return std::make_unique<LandmarkLayerBuilder>(context, layer.landmarks);
     case LayerItems::observations:
       return std::make_unique<ObservationLayerBuilder>(layer.regression, segment, tile_length_m);
     case LayerItems::frames:
       return std::make_unique<FrameLayerBuilder>(layer.parts, segment, tile_length_m);
-    case LayerItems::landmarks:
-      throw std::logic_error("no layer of layers_of() holds landmarks");
     case LayerItems::tracklets:
       break;
   }

@@ -10,6 +10,9 @@
 #include "mapper/frames/frame_pipeline.h"
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
+#include "schema/drive/drive.h"
+#include "schema/feature/codebook.h"
+#include "schema/geo/route_line.h"
 #include "schema/tile/observation.h"
 
 namespace milepost {
@@ -28,15 +31,25 @@ class LayerBuilder {
   virtual ~LayerBuilder() = default;
 
   // Takes in the next frame, taken at `along_m`, which is greater than that of the frame before.
-  virtual void add_frame(const ExtractedFrame& /*frame*/, double /*along_m*/) {}
+  virtual void add_frame(const Frame& /*recorded*/, const ExtractedFrame& /*frame*/,
+                         double /*along_m*/) {}
   // Takes in tracks that have ended.
   virtual void add_tracks(const std::vector<Track>& /*tracks*/) {}
   // The tiles that nothing beginning at `along_m` or later belongs to, ascending; each once.
+  // Infinity once all was added: then the rest of them.
   // Errors: invalid_input for a tile that holds more than the format allows.
   virtual Result<std::vector<StoredTile>> take_complete(double along_m) = 0;
 };
 
-std::unique_ptr<LayerBuilder> make_layer_builder(const Layer& layer, const std::string& segment,
-                                                 double tile_length_m);
+// What all layers of one segment are made with. It outlives their builders.
+struct SegmentContext {
+  std::string segment;
+  Camera camera;
+  const RouteLine& line;
+  const Codebook& codebook;
+  double tile_length_m = 0;
+};
+
+std::unique_ptr<LayerBuilder> make_layer_builder(const Layer& layer, const SegmentContext& context);
 
 }  // namespace milepost

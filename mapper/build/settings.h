@@ -2,15 +2,24 @@
 #pragma once
 
 #include "mapper/follow/feature_follower.h"
-#include "mapper/regress/regression.h"
+#include "mapper/landmarks/landmark_mapper.h"
+#include "mapper/landmarks/selection.h"
 #include "schema/feature/types.h"
 
 namespace milepost {
 
+struct LandmarkLayerSettings {
+  LandmarkSettings landmarks;
+  SelectionSettings selection;
+  double size_target_kb_per_m = 0.48;  // no tile weighs more on its stretch of road
+};
+
 struct BuildSettings {
   FeatureParameters feature;
   FollowSettings follow;
-  RegressionSettings regression;
+  double min_r_squared = 0.8;  // section 4.1.1, of tracklets without a landmark
+  LandmarkLayerSettings landmarks;
+  double codebook_step = 0.02;  // of a compact descriptor
   double tile_length_m = 20;
   double min_frame_spacing_m = 0.3;  // frames nearer to the last one used are passed over
   bool lab = false;                  // layers for the other methods too

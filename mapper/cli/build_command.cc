@@ -47,27 +47,20 @@ void add_options(CLI::App& app, BuildOptions& options) {
           "Strongest features kept of a frame; 0: all", 0, 1000000);
   setting("contrast-threshold", settings.feature.contrast_threshold, "X", "SIFT's least contrast",
           0, 1);
-  setting("min-r-squared", settings.regression.min_r_squared, "X",
-          "Least R^2 of a tracklet's regression", 0, 1);
+  setting("min-r-squared", settings.min_r_squared, "X",
+          "Least R^2 of a tracklet's regression (--lab)", 0, 1);
   setting("min-observations", settings.follow.min_observations, "N", "Least frames of a tracklet",
           3, 1000);
   setting("max-distance-ratio", settings.follow.max_distance_ratio, "X",
           "Ratio test of descriptor distances", 0.1, 1);
   setting("search-radius-px", settings.follow.search_radius_px, "PX",
           "Least radius of the search area of a followed feature", 1, 500);
+  setting("size-target-kb-per-m", settings.landmarks.size_target_kb_per_m, "KB",
+          "What the default method's layer weighs at most: more landmarks are more exact", 0.01,
+          1000);
   setting("tile-length-m", settings.tile_length_m, "M", "Length of road a tile", 1, 1000);
   setting("min-frame-spacing-m", settings.min_frame_spacing_m, "M",
           "Frames nearer to the last one are passed over", 0.01, 100);
-  app.add_option("--scale-model", settings.regression.model,
-                 "Along is linear in: inverse-scale (exact, default), or scale (as published)")
-      ->transform(
-          CLI::CheckedTransformer(
-              std::map<std::string, ScaleModel>{{"inverse-scale", ScaleModel::inverse_scale},
-                                                {"scale", ScaleModel::scale}},
-              CLI::ignore_case)
-              .description(""))
-      ->option_text("MODEL")
-      ->group(kSettings);
 }
 
 std::string summary_line(const BuildReport& report, const std::string& map) {
@@ -86,8 +79,9 @@ std::string summary_line(const BuildReport& report, const std::string& map) {
 int run_build(const std::string& program, std::vector<std::string> words) {
   CLI::App app(
       "Makes a map from recorded drives.\n\n"
-      "Each drive becomes a segment of feature scale tracklets: SIFT features followed over\n"
-      "consecutive frames, with a regression from feature scale to the position along the road.\n"
+      "Each drive becomes a segment of tracklets: SIFT features followed over consecutive frames.\n"
+      "For the default method each is placed as a landmark, and those that say the most are kept;\n"
+      "with --lab there is a layer for each method to compare with, too.\n"
       "Example: milepost-mapper build --drive drives/monday --map maps/town.map",
       program);
   BuildOptions options;

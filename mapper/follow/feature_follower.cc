@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "mapper/follow/motion.h"
+#include "schema/feature/feature_grid.h"
 
 namespace milepost {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mapper/landmarks/landmark_mapper.h"
 #include "schema/tile/database_frame.h"
 #include "schema/tile/observation.h"
 #include "schema/tile/tracklet.h"
@@ -16,6 +17,7 @@ namespace milepost {
 // The stretch of road that an item is good for; it lies in the tile where the stretch begins.
 inline AlongRange along_of(const Tracklet& tracklet) { return tracklet.along; }
 inline AlongRange along_of(const ObservedTracklet& observed) { return observed.tracklet.along; }
+inline AlongRange along_of(const MappedLandmark& landmark) { return landmark.along; }
 inline AlongRange along_of(const DatabaseFrame& frame) { return {frame.along_m, frame.along_m}; }
 
 // Not safe to use from several threads.

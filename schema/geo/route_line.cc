@@ -97,8 +97,11 @@ LineProjection RouteLine::project(const GeoPoint& position, const AlongRange& ra
     const double off_north = p.north_m - (enu_[i].north_m + part * north);
     const double distance_m = std::hypot(off_east, off_north);
     if (distance_m < nearest.distance_m) {
-      const bool right = off_east * north - off_north * east > 0;
-      nearest = {along_m_[i] + part * edge_m, right ? distance_m : -distance_m, distance_m};
+      const double along_m = along_m_[i] + part * edge_m;
+      const double across_m = (off_east * north - off_north * east) / std::sqrt(squared);
+      const bool beyond_end = along_m <= 0 || along_m >= length_m();
+      const double lateral_m = beyond_end ? across_m : std::copysign(distance_m, across_m);
+      nearest = {along_m, lateral_m, distance_m};
     }
   }
   return nearest;

@@ -11,8 +11,10 @@ namespace milepost {
 
 // Where a position lies beside a line.
 struct LineProjection {
-  double along_m = 0;     // of the nearest point of the line, [0, length]
-  double lateral_m = 0;   // signed distance from that point, positive to the right of the line
+  double along_m = 0;  // of the nearest point of the line, [0, length]
+  // Signed distance from that point, positive to the right of the line; beyond the line's ends, of
+  // the line going straight on.
+  double lateral_m = 0;
   double distance_m = 0;  // >= 0
 };
 

@@ -47,8 +47,10 @@ int main(int argc, char** argv) {
   if (!source) return fail(source.error());
   LocalizerSettings localizer_settings;
   localizer_settings.method = *method;
+  const Camera& camera = query->camera;
   Localizer localizer(std::shared_ptr<MapSource>(std::move(*source)),
-                      {query->camera.width_px, query->camera.focal_x_px, query->camera.focal_y_px},
+                      {camera.width_px, camera.focal_x_px, camera.focal_y_px, camera.principal_x_px,
+                       camera.principal_y_px},
                       localizer_settings);
 
   const FeatureParameters& feature = settings.feature;

@@ -26,10 +26,22 @@ Track approached_feature(double feature_along_m, double start_m, std::size_t fra
   return track;
 }
 
+RouteLine straight_line() {
+  return RouteLine::from_vertices({{49, 8.4, 110}, {49.001, 8.4, 110}}).value();
+}
+
+// A segment `s` in tiles of 20 m.
+std::unique_ptr<LayerBuilder> builder_of(const Layer& layer) {
+  static const RouteLine line = straight_line();
+  static const Codebook codebook = Codebook::trained({}, 0.02);
+  static const SegmentContext context{"s", {}, line, codebook, 20};
+  return make_layer_builder(layer, context);
+}
+
 TEST(LayerBuilder, TheLaboratorysLayersHoldTheSameTracklets) {
   const RegressionSettings published = {ScaleModel::scale, 0.8};
-  const auto averaged = make_layer_builder({"a", LayerItems::tracklets, published, {}}, "s", 20);
-  const auto observed = make_layer_builder({"o", LayerItems::observations, published, {}}, "s", 20);
+  const auto averaged = builder_of({"a", LayerItems::tracklets, published, {}, {}});
+  const auto observed = builder_of({"o", LayerItems::observations, published, {}, {}});
   std::vector<Track> tracks = {approached_feature(80, 22, 4), approached_feature(60, 20, 6)};
   tracks.push_back(approached_feature(60, 20, 3));
   tracks.back()[1].feature.scale_px = 90;  // no line fits: in neither layer
@@ -69,11 +81,10 @@ TEST(LayerBuilder, FramesKeepWhatTheirLayerIsFor) {
   frame.features.features.push_back({10, 20, 3});
   frame.features.descriptors.resize(1);
   frame.image[7] = 0.5F;
-  const auto features =
-      make_layer_builder({"f", LayerItems::frames, {}, {.features = true}}, "s", 20);
-  const auto images = make_layer_builder({"w", LayerItems::frames, {}, {.image = true}}, "s", 20);
+  const auto features = builder_of({"f", LayerItems::frames, {}, {.features = true}, {}});
+  const auto images = builder_of({"w", LayerItems::frames, {}, {.image = true}, {}});
   for (const auto& builder : {features.get(), images.get()}) {
-    for (const double along_m : {0.0, 19.0, 21.0}) builder->add_frame(frame, along_m);
+    for (const double along_m : {0.0, 19.0, 21.0}) builder->add_frame({}, frame, along_m);
   }
   const auto of_features = features->take_complete(20);
   ASSERT_TRUE(of_features.ok());
@@ -96,7 +107,7 @@ TEST(LayerBuilder, FramesKeepWhatTheirLayerIsFor) {
 }
 
 TEST(LayerBuilder, RefusesATileThatNoReaderWouldTake) {
-  const auto builder = make_layer_builder({"o", LayerItems::observations, {}, {}}, "s", 20);
+  const auto builder = builder_of({"o", LayerItems::observations, {}, {}, {}});
   builder->add_tracks(
       std::vector<Track>(4000, approached_feature(300, 0, 40)));  // 20 MB of descriptors
   const auto tiles = builder->take_complete(kEnd);

@@ -10,7 +10,7 @@ from pathlib import Path
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 ROOMS = ("schema", "mapper", "server", "client")
 
-FEATURE_TYPES = ["schema/feature/types", "schema/feature/descriptor.h"]
+FEATURE_TYPES = ["schema/feature/types", "schema/feature/descriptor.h", "schema/feature/codebook.h"]
 BASE = "schema/base/"
 COMMAND = "schema/command/"
 
@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "schema/command/": [BASE, COMMAND],
     "schema/geo/": [BASE, "schema/geo/"],
     "schema/store/": [BASE, "schema/store/"],
-    "schema/tile/": [BASE, "schema/tile/", *FEATURE_TYPES],
+    "schema/tile/": [BASE, "schema/geo/geodesy.h", "schema/tile/", *FEATURE_TYPES],
     "schema/feature/types": [BASE, *FEATURE_TYPES],
     "schema/feature/": [BASE, "schema/feature/"],
     "schema/drive/": [BASE, "schema/geo/", "schema/drive/"],

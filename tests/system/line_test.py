@@ -16,7 +16,7 @@ SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_err
 # Every method, and a bound on its mean error in metres: those that interpolate nothing are worse.
 METHODS = {"wisurf": 5.0, "scale-only": 1.5, "tracklet-matching": 1.0, "tracklet-regression": 1.0,
            "tracklet-regression-kalman": 1.0, "tracklet-regression-particle": 1.0,
-           "tracklet-regression-unaveraged": 1.0, "milepost": 0.5}
+           "tracklet-regression-unaveraged": 1.0, "inverse-scale": 0.5, "milepost": 0.5}
 STATUSES = {"initializing", "tracking", "predicted", "lost", "off-map"}
 
 
@@ -142,7 +142,8 @@ class Line(CommandTest):
     def test_refuses_methods_that_the_map_does_not_serve(self):
         self.build_map()
         for method, layer in {"wisurf": "wisurf", "scale-only": "frames", "tracklet-matching": "observations",
-                              "tracklet-regression": "tracklets-scale"}.items():
+                              "tracklet-regression": "tracklets-scale",
+                              "inverse-scale": "tracklets-inverse-scale"}.items():
             result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
                          "--method", method)
             self.expect_refused(result, 1, f"'{layer}'", "--lab")

@@ -24,21 +24,22 @@ class Mapper(CommandTest):
 
     def test_a_setting_changes_the_build(self):
         first = self.build(STREET / "street-map", self.map)
-        second = self.build(STREET / "street-map", self.map, "--min-r-squared", "0.95")
+        second = self.build(STREET / "street-map", self.map, "--size-target-kb-per-m", "0.3")
         self.expect_done(first)
         self.expect_done(second)
         self.assertNotEqual(first.stdout.split("build ")[1][:32], second.stdout.split("build ")[1][:32])
 
     def test_settings_from_a_file(self):
         config = self.folder / "mapper.conf"
-        config.write_text("# a comment\nmin-r-squared = 0.95\n")
+        config.write_text("# a comment\nsize-target-kb-per-m = 0.3\n")
         by_file = self.build(STREET / "street-map", self.folder / "a.map", "--config", config)
-        by_word = self.build(STREET / "street-map", self.folder / "b.map", "--min-r-squared", "0.95")
+        by_word = self.build(STREET / "street-map", self.folder / "b.map", "--size-target-kb-per-m",
+                             "0.3")
         self.expect_done(by_file)
         self.expect_done(by_word)
         self.assertEqual((self.folder / "a.map").read_bytes(), (self.folder / "b.map").read_bytes())
-        config.write_text("min-r-sqared = 0.95\n")
-        self.expect_refused(self.build(STREET / "street-map", self.map, "--config", config), 2, "min-r-sqared")
+        config.write_text("size-target-kb-a-m = 0.3\n")
+        self.expect_refused(self.build(STREET / "street-map", self.map, "--config", config), 2, "size-target-kb-a-m")
 
     def start_build(self):
         return subprocess.Popen([MAPPER, "build", "--drive", str(STREET / "street-map"), "--map", str(self.map),
@@ -52,7 +53,7 @@ class Mapper(CommandTest):
         self.fail("the build ended before it could be disturbed")
 
     def test_killed_it_leaves_the_old_map(self):
-        self.expect_done(self.build(STREET / "street-map", self.map, "--min-r-squared", "0.9"))
+        self.expect_done(self.build(STREET / "street-map", self.map, "--size-target-kb-per-m", "0.3"))
         before = self.map.read_bytes()
         process = self.start_build()
         self.wait_for_partial_file(process)

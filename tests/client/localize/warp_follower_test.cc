@@ -34,7 +34,8 @@ SegmentSession straight_road() {
           LayerItems::frames,
           *RouteLine::from_vertices({kStart, end}),
           {},
-          400};
+          400,
+          std::nullopt};
 }
 
 class WarpFollowing : public ::testing::Test {

@@ -143,10 +143,10 @@ TEST(RouteLine, ProjectsBeyondItsEndsOntoThem) {
   const LineProjection before = line.project(at(3, -4));
   EXPECT_EQ(before.along_m, 0);
   EXPECT_NEAR(before.distance_m, 5, 1e-4);
-  EXPECT_NEAR(before.lateral_m, 5, 1e-4);
+  EXPECT_NEAR(before.lateral_m, 3, 1e-4);
   const LineProjection behind = line.project(at(-3, 104));
   EXPECT_DOUBLE_EQ(behind.along_m, line.length_m());
-  EXPECT_NEAR(behind.lateral_m, -5, 1e-4);
+  EXPECT_NEAR(behind.lateral_m, -3, 1e-4);
 }
 
 //  (0,100) +------+ (20,100)      out on the left, back on the right

@@ -1,0 +1,55 @@
+#include "client/localize/pose_consensus.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace milepost {
+
+std::optional<PoseEstimate> estimate_by_consensus(const PoseSolver& solver,
+                                                  const PoseBelief& before,
+                                                  const std::vector<LandmarkMatch>& matches,
+                                                  const ConsensusSettings& settings) {
+  if (matches.size() < 2) return std::nullopt;
+  std::mt19937 draws(settings.seed);
+  StateVector best = before.mean;
+  std::size_t most = 0;
+  for (int i = 0; i < settings.samples; ++i) {
+    const std::size_t a = draws() % matches.size();
+    const std::size_t b = draws() % matches.size();
+    if (a == b) continue;
+    const StateVector proposed = solver.hypothesis(before, {matches[a], matches[b]});
+    std::size_t agreeing = 0;
+    for (const LandmarkMatch& match : matches) {
+      if (solver.pixel_sigmas(proposed, match) < settings.agreement_sigmas) ++agreeing;
+    }
+    if (agreeing <= most) continue;
+    most = agreeing;
+    best = proposed;
+  }
+  return solver.estimate(before, best, matches);
+}
+
+std::vector<PositionEstimate> along_by_scale(const std::vector<LandmarkMatch>& matches,
+                                             const std::vector<Feature>& features,
+                                             const std::vector<PlacedLandmark>& landmarks,
+                                             const Pinhole& camera, const RouteLine& line,
+                                             const LocalFrame& window, double scale_sigma) {
+  std::vector<PositionEstimate> estimates;
+  estimates.reserve(matches.size());
+  for (const LandmarkMatch& match : matches) {
+    const PlacedLandmark& landmark = landmarks[match.landmark];
+    const double depth_m = landmark.size_m * camera.focal_px() / features[match.feature].scale_px;
+    const double middle_m = (landmark.along.from_m + landmark.along.to_m) / 2;
+    const EnuPoint middle = window.enu_from_geo(line.point_at(middle_m));
+    const double heading_rad = line.heading_deg_at(middle_m) * std::numbers::pi / 180;
+    const double ahead_m = (landmark.enu_m.x() - middle.east_m) * std::sin(heading_rad) +
+                           (landmark.enu_m.y() - middle.north_m) * std::cos(heading_rad);
+    const double sigma = std::hypot(scale_sigma, landmark.size_sigma);
+    estimates.push_back(
+        {middle_m + ahead_m - depth_m, std::hypot(depth_m * sigma, landmark.depth_sigma_m)});
+  }
+  return estimates;
+}
+
+}  // namespace milepost

@@ -1,0 +1,83 @@
+#include "mapper/landmarks/triangulation.h"
+
+#include <Eigen/Dense>
+
+namespace milepost {
+namespace {
+
+constexpr int kMaxIterations = 10;
+constexpr double kConvergedM = 1e-4;
+
+using Jacobian = Eigen::Matrix<double, 2, 3>;
+
+// The point with the least sum of squared distances from the rays.
+Eigen::Vector3d nearest_to_rays(const PixelTrack& track, const std::vector<CameraPose>& poses,
+                                const Pinhole& camera) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d centre = poses[track.front().frame].enu_m;
+  for (const Sight& sight : track) {
+    const CameraPose& pose = poses[sight.frame];
+    const Eigen::Vector3d ray =
+        (camera_from_enu(pose).transpose() * camera.ray_of(sight.pixel.x(), sight.pixel.y()))
+            .normalized();
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
+    normal += across;
+    right_side += across * (pose.enu_m - centre);
+  }
+  return centre + normal.ldlt().solve(right_side);
+}
+
+// Sums of a Gauss-Newton step.
+struct Normal {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double squares_px2 = 0;
+};
+
+std::optional<Normal> normal_at(const Eigen::Vector3d& enu_m, const PixelTrack& track,
+                                const std::vector<CameraPose>& poses, const Pinhole& camera) {
+  constexpr double kNearestM = 0.5;
+  Normal normal;
+  for (const Sight& sight : track) {
+    const CameraPose& pose = poses[sight.frame];
+    const Eigen::Matrix3d rotation = camera_from_enu(pose);
+    const Eigen::Vector3d seen = rotation * (enu_m - pose.enu_m);
+    if (!(seen.z() > kNearestM)) return std::nullopt;
+    Jacobian pixel_by_seen;
+    pixel_by_seen << camera.focal_x_px / seen.z(), 0,
+        -camera.focal_x_px * seen.x() / (seen.z() * seen.z()), 0, camera.focal_y_px / seen.z(),
+        -camera.focal_y_px * seen.y() / (seen.z() * seen.z());
+    const Jacobian by_point = pixel_by_seen * rotation;
+    const Eigen::Vector2d residual = sight.pixel - camera.pixel_of(seen);
+    normal.matrix += by_point.transpose() * by_point;
+    normal.gradient += by_point.transpose() * residual;
+    normal.squares_px2 += residual.squaredNorm();
+  }
+  return normal;
+}
+
+}  // namespace
+
+std::optional<PlacedPoint> triangulate(const PixelTrack& track,
+                                       const std::vector<CameraPose>& poses, const Pinhole& camera,
+                                       double pixel_sigma_px) {
+  PlacedPoint placed;
+  placed.enu_m = nearest_to_rays(track, poses, camera);
+  std::optional<Normal> normal = normal_at(placed.enu_m, track, poses, camera);
+  bool converged = false;  // towards no point where the rays are parallel
+  for (int i = 0; normal && !converged && i < kMaxIterations; ++i) {
+    const Eigen::Vector3d step = normal->matrix.ldlt().solve(normal->gradient);
+    placed.enu_m += step;
+    normal = normal_at(placed.enu_m, track, poses, camera);
+    converged = step.norm() < kConvergedM;
+  }
+  if (!normal || !converged) return std::nullopt;
+  const Eigen::FullPivLU<Eigen::Matrix3d> inverse(normal->matrix);
+  if (!inverse.isInvertible()) return std::nullopt;
+  placed.covariance_m2 = pixel_sigma_px * pixel_sigma_px * inverse.inverse();
+  placed.rms_px = std::sqrt(normal->squares_px2 / static_cast<double>(track.size()));
+  return placed;
+}
+
+}  // namespace milepost

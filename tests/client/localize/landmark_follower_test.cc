@@ -1,0 +1,214 @@
+// The localizer by landmarks, on a road of which every landmark is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "client/localize/localizer.h"
+#include "tests/client/localize/landmark_road.h"
+
+namespace milepost {
+namespace {
+
+using testing::LandmarkRoad;
+using testing::LandmarkRoadMap;
+using testing::RoadPose;
+
+constexpr double kFrameM = 1;      // between frames ...
+constexpr double kSpeedMps = 10;   // ... at this speed
+constexpr double kLaneFromM = 40;  // from where the vehicle changes to a lane 3 m to the left ...
+constexpr double kLaneToM = 80;    // ... which it reaches here
+
+// Smoothly into the other lane.
+RoadPose drive_at(double along_m) {
+  const double part = std::clamp((along_m - kLaneFromM) / (kLaneToM - kLaneFromM), 0.0, 1.0);
+  const double lateral_m = -1.5 * (1 - std::cos(part * M_PI));
+  const double slope = -1.5 * std::sin(part * M_PI) * M_PI / (kLaneToM - kLaneFromM);
+  return {along_m, lateral_m, std::atan(slope) * 180 / M_PI};
+}
+
+double angle_between_deg(double a_deg, double b_deg) {
+  return std::abs(std::remainder(a_deg - b_deg, 360));
+}
+
+class FollowingByLandmarks : public ::testing::Test {
+ protected:
+  // The road is the same for all tests.
+  static const LandmarkRoad& road() {
+    static const LandmarkRoad road;
+    return road;
+  }
+
+  static LocalizerSettings settings() {
+    LocalizerSettings settings;
+    settings.method = *method_named(kDefaultMethod);
+    settings.prefetch_m = 0;
+    settings.window.reach = {5, 5};  // so the source is asked often
+    return settings;
+  }
+
+  // The receiver knows the start to 8 m, and nothing later.
+  void begin_at(double along_m) {
+    time_s_ = 100;
+    localizer_.observe({time_s_, road().line().point_at(along_m + 3), 8});
+    fix(along_m);
+  }
+
+  // The fix of the next frame.
+  Fix fix(double along_m, bool blind = false) {
+    truth_ = drive_at(along_m);
+    return fix_from_truth(blind);
+  }
+
+  Fix fix_from_truth(bool blind = false) {
+    const FeatureSet set = blind ? FeatureSet() : road().seen_from(truth_, mounting_deg_, random_);
+    const auto fix = localizer_.localize(
+        {time_s_, [&](const FeatureParameters&) -> const FeatureSet& { return set; }});
+    time_s_ += kFrameM / kSpeedMps;
+    EXPECT_TRUE(fix.ok()) << fix.error().line();
+    return fix.ok() ? *fix : Fix();
+  }
+
+  void expect_tracked(const Fix& fix) const {
+    ASSERT_EQ(fix.status, FixStatus::tracking) << "at " << truth_.along_m;
+    EXPECT_NEAR(*fix.along_m, truth_.along_m, 0.08);
+    EXPECT_NEAR(*fix.lateral_m, truth_.lateral_m, 0.06) << "at " << truth_.along_m;
+    EXPECT_LT(angle_between_deg(*fix.heading_deg, road().course_deg(truth_) + mounting_deg_), 0.25)
+        << "at " << truth_.along_m;
+    EXPECT_LT(fix.sigma_m, 0.1);
+    EXPECT_LT(*fix.lateral_sigma_m, 0.1);
+    EXPECT_GE(fix.matches, 20);
+  }
+
+  // Tracks from frame to frame, first `from_m`, last before `to_m`.
+  void expect_tracked_between(double from_m, double to_m) {
+    for (double along_m = from_m; along_m < to_m; along_m += kFrameM) {
+      expect_tracked(fix(along_m));
+      if (HasFatalFailure()) return;
+    }
+  }
+
+  std::shared_ptr<LandmarkRoadMap> map_ = std::make_shared<LandmarkRoadMap>(road());
+  Localizer localizer_{map_, road().query_camera(), settings()};
+  double mounting_deg_ = 0;
+  double time_s_ = 0;
+  RoadPose truth_;
+  std::mt19937 random_{11};
+};
+
+TEST_F(FollowingByLandmarks, FindsTheStart) {
+  time_s_ = 100;
+  localizer_.observe({time_s_, road().line().point_at(33), 8});
+  const Fix first = fix(30);
+  EXPECT_EQ(first.status, FixStatus::initializing);
+  ASSERT_TRUE(first.along_m && first.lateral_m);
+  EXPECT_NEAR(*first.along_m, 30, 0.15);
+  EXPECT_NEAR(*first.lateral_m, 0, 0.1);
+  EXPECT_GE(first.matches, 20);
+}
+
+TEST_F(FollowingByLandmarks, FromBeforeTheRoadBegins) {
+  time_s_ = 100;
+  localizer_.observe({time_s_, road().line().point_at(0), 8});
+  for (double along_m = -1.8; along_m < 5; along_m += 0.5) {
+    truth_ = {along_m, -0.8, 0};
+    const Fix fix = fix_from_truth();
+    ASSERT_TRUE(fix.along_m && fix.lateral_m) << along_m;
+    EXPECT_NEAR(*fix.along_m, std::max(0.0, along_m), 0.1);
+    EXPECT_NEAR(*fix.lateral_m, -0.8, 0.1) << along_m;
+  }
+}
+
+TEST_F(FollowingByLandmarks, ThroughALaneChange) {
+  begin_at(30);
+  expect_tracked_between(31, 100);
+  EXPECT_NEAR(truth_.lateral_m, -3, 1e-9);
+}
+
+// 540 m: the tangent frame is laid anew on the way, through the bend.
+TEST_F(FollowingByLandmarks, AlongTheWholeRoad) {
+  begin_at(10);
+  expect_tracked_between(11, 550);
+}
+
+TEST_F(FollowingByLandmarks, WithACameraThatLooksAside) {
+  mounting_deg_ = 2;
+  begin_at(30);
+  expect_tracked_between(31, 130);
+  // What it learned of its mounting carries it straight on: 2 degrees over 7 m would be 0.24 m.
+  Fix blind;
+  for (double along_m = 130; along_m < 137; along_m += kFrameM) blind = fix(along_m, true);
+  EXPECT_EQ(blind.status, FixStatus::predicted);
+  EXPECT_NEAR(*blind.lateral_m, truth_.lateral_m, 0.12);
+}
+
+TEST_F(FollowingByLandmarks, CarriesOnThroughABlackout) {
+  begin_at(100);
+  expect_tracked_between(101, 130);
+  double sigma_m = 0;
+  double lateral_sigma_m = 0;
+  for (double along_m = 130; along_m < 137; along_m += kFrameM) {
+    const Fix blind = fix(along_m, true);
+    EXPECT_EQ(blind.status, FixStatus::predicted);
+    EXPECT_EQ(blind.matches, 0);
+    EXPECT_NEAR(*blind.along_m, along_m, 3 * blind.sigma_m);
+    EXPECT_NEAR(*blind.lateral_m, -3, 3 * *blind.lateral_sigma_m);
+    EXPECT_GT(blind.sigma_m, sigma_m);
+    EXPECT_GT(*blind.lateral_sigma_m, lateral_sigma_m);
+    sigma_m = blind.sigma_m;
+    lateral_sigma_m = *blind.lateral_sigma_m;
+  }
+  EXPECT_LT(sigma_m, 2);
+  expect_tracked_between(137, 150);
+}
+
+// Frames that come once in two seconds, of which three are blind: 80 m without a sight.
+TEST_F(FollowingByLandmarks, CarriesOnThroughALongBlackout) {
+  begin_at(100);
+  expect_tracked_between(101, 120);
+  for (double along_m = 139; along_m < 180; along_m += 20) {
+    time_s_ += 19 / kSpeedMps;
+    const Fix blind = fix(along_m, true);
+    EXPECT_EQ(blind.status, FixStatus::predicted);
+    EXPECT_NEAR(*blind.along_m, along_m, 5);
+  }
+}
+
+TEST_F(FollowingByLandmarks, IsLostAndFoundAgain) {
+  begin_at(80);  // four seconds before, so the receiver's position is too old to help
+  expect_tracked_between(81, 120);
+  double along_m = 120;
+  for (int frame = 0; frame < LocalizerSettings().max_predicted_frames; ++frame) {
+    EXPECT_EQ(fix(along_m, true).status, FixStatus::predicted);
+    along_m += kFrameM;
+  }
+  const Fix lost = fix(along_m, true);
+  EXPECT_EQ(lost.status, FixStatus::lost);
+  EXPECT_FALSE(lost.along_m || lost.lateral_m || lost.heading_deg);
+  EXPECT_EQ(fix(along_m + kFrameM, true).status, FixStatus::lost);
+  EXPECT_EQ(fix(along_m + 2 * kFrameM).status, FixStatus::initializing);
+  expect_tracked_between(along_m + 3 * kFrameM, along_m + 20);
+}
+
+TEST_F(FollowingByLandmarks, DrivesOnWhileTheSourceFails) {
+  begin_at(100);
+  expect_tracked_between(101, 120);
+  EXPECT_FALSE(localizer_.noted_error());
+  map_->fails = true;
+  int predicted = 0;
+  double along_m = 120;
+  for (; predicted < 3 && along_m < 140; along_m += kFrameM) {
+    const Fix on = fix(along_m);
+    if (on.status == FixStatus::tracking) continue;  // of what is held
+    EXPECT_EQ(on.status, FixStatus::predicted);
+    EXPECT_NEAR(*on.along_m, along_m, 3 * on.sigma_m);
+    ++predicted;
+  }
+  EXPECT_EQ(predicted, 3);
+  ASSERT_TRUE(localizer_.noted_error());
+  EXPECT_EQ(localizer_.noted_error()->code, ErrorCode::unavailable);
+  map_->fails = false;
+  expect_tracked_between(along_m, along_m + 10);
+}
+
+}  // namespace
+}  // namespace milepost

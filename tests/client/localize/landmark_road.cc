@@ -1,0 +1,199 @@
+#include "tests/client/localize/landmark_road.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "schema/tile/codec.h"
+
+namespace milepost::testing {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr GeoPoint kStart = {49, 8.4, 110};
+constexpr double kBendFromM = 200;
+constexpr double kBendRadiusM = 80;
+constexpr double kSlope = 0.03;
+constexpr double kDescriptorStep = 0.01;
+constexpr double kMappedFromM = 45;  // before a landmark ...
+constexpr double kMappedToM = 8;     // ... to so far before it
+constexpr double kFarthestSeenM = 50;
+const MapVersion kVersion = {"map", "0123456789abcdef0123456789abcdef"};
+
+// In the tangent frame at the start.
+EnuPoint road_point(double along_m) {
+  const double into_bend_m =
+      std::clamp(along_m - kBendFromM, 0.0, kBendRadiusM * std::numbers::pi / 2);
+  const double turned_rad = into_bend_m / kBendRadiusM;
+  const double east_m = std::max(0.0, along_m - kBendFromM - into_bend_m);
+  const double north_m = std::min(along_m, kBendFromM);
+  return {east_m + kBendRadiusM * (1 - std::cos(turned_rad)),
+          north_m + kBendRadiusM * std::sin(turned_rad), kSlope * along_m};
+}
+
+RouteLine road_line() {
+  std::vector<GeoPoint> vertices;
+  const LocalFrame frame(kStart);
+  for (double along_m = 0; along_m <= LandmarkRoad::kLengthM; along_m += 1) {
+    vertices.push_back(frame.geo_from_enu(road_point(along_m)));
+  }
+  return *RouteLine::from_vertices(vertices);
+}
+
+// The point `lateral_m` to the right of the line and `up_m` above it; straight on beyond its ends.
+GeoPoint beside(const RouteLine& line, double along_m, double lateral_m, double up_m) {
+  const double on_line_m = std::clamp(along_m, 0.0, line.length_m());
+  const double ahead_m = along_m - on_line_m;
+  const double heading_rad = line.heading_deg_at(on_line_m) * kRadPerDeg;
+  const double c = std::cos(heading_rad);
+  const double s = std::sin(heading_rad);
+  return LocalFrame(line.point_at(on_line_m))
+      .geo_from_enu(
+          {lateral_m * c + ahead_m * s, -lateral_m * s + ahead_m * c, up_m + kSlope * ahead_m});
+}
+
+Eigen::Vector3d vector_from(const EnuPoint& point) {
+  return {point.east_m, point.north_m, point.up_m};
+}
+
+}  // namespace
+
+std::vector<Descriptor> unlike_descriptors(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Descriptor> descriptors(count);
+  for (Descriptor& descriptor : descriptors) {
+    for (std::uint8_t& value : descriptor) {
+      value = static_cast<std::uint8_t>(255 * std::pow(uniform(random), 6));
+    }
+  }
+  return descriptors;
+}
+
+LandmarkRoad::LandmarkRoad()
+    : line_(road_line()),
+      codebook_(Codebook::trained(unlike_descriptors(500, 1), kDescriptorStep)) {
+  constexpr double kSpacingM = 0.5;
+  const auto descriptors = unlike_descriptors(static_cast<std::size_t>(kLengthM / kSpacingM), 2);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> out_m(4, 14);
+  std::uniform_real_distribution<double> up_m(-1, 5);
+  std::uniform_real_distribution<double> size_m(0.1, 0.4);
+  for (std::size_t i = 0; i < descriptors.size(); ++i) {
+    const double along_m = kMappedToM + kSpacingM * static_cast<double>(i);
+    if (along_m > line_.length_m()) break;
+    const double lateral_m = out_m(random) * (i % 2 == 0 ? 1 : -1);
+    things_.push_back(
+        {beside(line_, along_m, lateral_m, up_m(random)), along_m, size_m(random), descriptors[i]});
+  }
+}
+
+SegmentDescription LandmarkRoad::description() const {
+  return {"road", line_.length_m(), line_.vertices(), {}};
+}
+
+std::vector<LandmarkTile> LandmarkRoad::tiles() const {
+  std::map<std::uint32_t, LandmarkTile> tiles;
+  for (const Thing& thing : things_) {
+    const AlongRange along = {std::max(0.0, thing.along_m - kMappedFromM),
+                              thing.along_m - kMappedToM};
+    const auto index = static_cast<std::uint32_t>(along.from_m / kTileM);
+    LandmarkTile& tile = tiles[index];
+    tile.segment = "road";
+    tile.index = index;
+    tile.origin_m = index * kTileM;
+    Landmark landmark;
+    landmark.descriptor = codebook_.compact(thing.descriptor);
+    landmark.position = LocalFrame(line_.point_at(tile.origin_m)).enu_from_geo(thing.position);
+    landmark.depth_sigma_m = 0.05F;
+    landmark.size_m = static_cast<float>(thing.size_m);
+    landmark.size_sigma = 0.05F;
+    landmark.along = along;
+    landmark.observations = 10;
+    tile.landmarks.push_back(landmark);
+  }
+  std::vector<LandmarkTile> all;
+  for (const auto& [index, tile] : tiles) all.push_back(quantized(tile));
+  return all;
+}
+
+QueryCamera LandmarkRoad::query_camera() const {
+  return {kWidthPx, kCamera.focal_x_px, kCamera.focal_y_px, kCamera.principal_x_px,
+          kCamera.principal_y_px};
+}
+
+double LandmarkRoad::course_deg(const RoadPose& at) const {
+  return wrapped_360(line_.heading_deg_at(at.along_m) + at.yaw_deg);
+}
+
+FeatureSet LandmarkRoad::seen_from(const RoadPose& at, double mounting_deg,
+                                   std::mt19937& random) const {
+  const LocalFrame frame(beside(line_, at.along_m, at.lateral_m, 0));
+  CameraPose pose;
+  pose.heading_rad = (course_deg(at) + mounting_deg) * kRadPerDeg;
+  pose.pitch_rad = std::atan(kSlope);
+  std::normal_distribution<double> noise;
+  FeatureSet set;
+  for (const Thing& thing : things_) {
+    if (std::abs(thing.along_m - at.along_m) > kFarthestSeenM) continue;
+    const Eigen::Vector3d seen =
+        milepost::seen_from(pose, vector_from(frame.enu_from_geo(thing.position)));
+    if (seen.z() < 2 || seen.z() > kFarthestSeenM) continue;
+    const Eigen::Vector2d pixel = kCamera.pixel_of(seen);
+    if (pixel.x() < 0 || pixel.x() > kWidthPx || pixel.y() < 0 || pixel.y() > kHeightPx) continue;
+    const double scale_px = thing.size_m * kCamera.focal_px() / seen.z();
+    set.features.push_back({static_cast<float>(pixel.x() + 0.5 * noise(random)),
+                            static_cast<float>(pixel.y() + 0.5 * noise(random)),
+                            static_cast<float>(scale_px * std::exp(0.05 * noise(random)))});
+    set.descriptors.push_back(thing.descriptor);
+  }
+  return set;
+}
+
+LandmarkRoadMap::LandmarkRoadMap(const LandmarkRoad& road) : description_(road.description()) {
+  const nlohmann::json parameters = {
+      {"items", "landmarks"},
+      {"focal_px", {700, 700}},
+      {"codebook", nlohmann::json::parse(road.codebook().to_json())}};
+  layer_parameters_ = parameters.dump();
+  add_line(kVersion, description_, lines_);
+  for (const LandmarkTile& tile : road.tiles()) {
+    tiles_.push_back({tile.index, tile.along(), encode_landmarks(tile)});
+  }
+}
+
+Result<std::vector<TileFrame>> LandmarkRoadMap::tiles(const MapVersion& /*version*/,
+                                                      const std::string& /*segment*/,
+                                                      const std::string& /*layer*/,
+                                                      const AlongRange& range) {
+  if (fails) return Error{ErrorCode::unavailable, "road", "the source fails", ""};
+  std::vector<TileFrame> met;
+  for (const StoredTile& tile : tiles_) {
+    if (tile.along.meets(range)) met.push_back({tile.index, tile.frame});
+  }
+  return met;
+}
+
+Result<std::vector<NearbySegment>> LandmarkRoadMap::segments_near(const GeoPoint& position,
+                                                                  double radius_m) {
+  return lines_near(lines_, position, radius_m);
+}
+
+Result<MapDescription> LandmarkRoadMap::describe(const MapVersion& version) {
+  return MapDescription{version, {{"tracklets", layer_parameters_}}, to_json(FeatureParameters())};
+}
+
+Result<SegmentDescription> LandmarkRoadMap::segment(const MapVersion& /*version*/,
+                                                    const std::string& /*segment*/) {
+  return description_;
+}
+
+Result<std::uint64_t> LandmarkRoadMap::layer_bytes(const MapVersion& /*version*/,
+                                                   const std::string& /*segment*/,
+                                                   const std::string& /*layer*/) {
+  return Error{ErrorCode::not_found, "road", "only tiles", ""};
+}
+
+}  // namespace milepost::testing

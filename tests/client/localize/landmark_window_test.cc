@@ -1,0 +1,112 @@
+#include "client/localize/landmark_window.h"
+
+#include <gtest/gtest.h>
+
+#include "schema/tile/codec.h"
+#include "tests/client/localize/layer_of_tiles.h"
+
+namespace milepost {
+namespace {
+
+constexpr GeoPoint kStart = {49, 8.4, 110};
+constexpr double kHalfStepM = 0.006;  // of the tiles' positions, and what the ellipsoid adds
+
+void expect_near(const Eigen::Vector3d& enu_m, const EnuPoint& expected) {
+  EXPECT_NEAR(enu_m.x(), expected.east_m, kHalfStepM);
+  EXPECT_NEAR(enu_m.y(), expected.north_m, kHalfStepM);
+  EXPECT_NEAR(enu_m.z(), expected.up_m, kHalfStepM);
+}
+
+// 400 m to the north east, uphill.
+RouteLine hill() {
+  const LocalFrame frame(kStart);
+  return *RouteLine::from_vertices(
+      {frame.geo_from_enu({0, 0, 0}), frame.geo_from_enu({240, 320, 20})});
+}
+
+class LandmarksOnAHill : public ::testing::Test {
+ protected:
+  // A tile whose origin is `origin_m`, with one landmark at a point of the frame at the start.
+  Bytes tile(std::uint32_t index, double origin_m, const EnuPoint& from_start) const {
+    Landmark landmark;
+    landmark.descriptor[0] = static_cast<std::int8_t>(index);
+    landmark.position = LocalFrame(line_.point_at(origin_m))
+                            .enu_from_geo(LocalFrame(kStart).geo_from_enu(from_start));
+    landmark.depth_sigma_m = 0.5F;
+    landmark.size_m = 0.25F;
+    landmark.size_sigma = 0.1F;
+    landmark.along = {origin_m, origin_m + 20};
+    landmark.observations = 5;
+    return encode_landmarks({"hill", index, origin_m, {landmark}});
+  }
+
+  LandmarkWindow window(std::vector<testing::LayerOfTiles::Tile> tiles) const {
+    auto source = std::make_shared<testing::LayerOfTiles>(std::move(tiles));
+    return {{source, {}, "hill", "tracklets"}, {5, 5}, line_};
+  }
+
+  RouteLine line_ = hill();
+};
+
+TEST_F(LandmarksOnAHill, PlacesOfTwoTilesAgreeInOneFrame) {
+  const EnuPoint corner = {100, 130, 12};  // mapped twice
+  auto window = this->window({{{40, 60}, tile(2, 40, corner)}, {{60, 80}, tile(3, 60, corner)}});
+  ASSERT_TRUE(window.cover({50, 70}).ok());
+  ASSERT_EQ(window.landmarks().size(), 2U);
+  for (const PlacedLandmark& landmark : window.landmarks()) expect_near(landmark.enu_m, corner);
+  const PlacedLandmark& second = window.landmarks()[1];
+  EXPECT_EQ(second.descriptor[0], 3);
+  EXPECT_NEAR(second.depth_sigma_m, 0.5, 0.02);
+  EXPECT_NEAR(second.size_m, 0.25, 0.01);
+  EXPECT_NEAR(second.size_sigma, 0.1, 0.004);
+  EXPECT_EQ(second.along.from_m, 60);
+  EXPECT_EQ(second.along.to_m, 80);
+}
+
+// From the line in the middle of where it was seen: 70 m of 400.
+TEST_F(LandmarksOnAHill, RaysLeadFromWhereItWasMapped) {
+  auto window = this->window({{{60, 80}, tile(3, 60, {42 + 16, 56 - 12, 3.5})}});
+  ASSERT_TRUE(window.cover({60, 70}).ok());
+  const Eigen::Vector3d& ray = window.landmarks().at(0).mapping_ray;
+  EXPECT_NEAR(ray.x(), 0.8, 1e-3);  // 20 m to the right
+  EXPECT_NEAR(ray.y(), -0.6, 1e-3);
+  EXPECT_NEAR(ray.z(), 0, 1e-3);
+}
+
+TEST_F(LandmarksOnAHill, ANewOriginMovesThem) {
+  const EnuPoint corner = {100, 130, 12};
+  auto window = this->window({{{40, 60}, tile(2, 40, corner)}});
+  ASSERT_TRUE(window.cover({50, 55}).ok());
+  window.set_origin(LocalFrame(kStart).geo_from_enu({60, 80, 5}));
+  ASSERT_EQ(window.landmarks().size(), 1U);
+  expect_near(window.landmarks()[0].enu_m + Eigen::Vector3d(60, 80, 5), corner);
+  EXPECT_NEAR(window.frame().enu_from_geo(kStart).north_m, -80, 1e-2);
+}
+
+TEST_F(LandmarksOnAHill, LetsGoOfWhatLiesBehind) {
+  auto window = this->window({{{40, 60}, tile(2, 40, {})}, {{100, 120}, tile(5, 100, {})}});
+  ASSERT_TRUE(window.cover({50, 55}).ok());
+  ASSERT_TRUE(window.cover({90, 105}).ok());
+  ASSERT_EQ(window.landmarks().size(), 1U);
+  EXPECT_EQ(window.landmarks()[0].descriptor[0], 5);
+}
+
+TEST_F(LandmarksOnAHill, ACorruptTileKeepsWhatWasHeld) {
+  Bytes broken = tile(3, 60, {});
+  broken[broken.size() / 2] ^= 0xff;
+  const EnuPoint corner = {100, 130, 12};
+  auto window = this->window({{{40, 60}, tile(2, 40, corner)}, {{70, 90}, broken}});
+  ASSERT_TRUE(window.cover({50, 55}).ok());
+  const Status status = window.cover({50, 75});
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().code, ErrorCode::corrupt);
+  ASSERT_EQ(window.landmarks().size(), 1U);
+  window.set_origin(kStart);  // places them again
+  ASSERT_EQ(window.landmarks().size(), 1U);
+  expect_near(window.landmarks()[0].enu_m, corner);
+  EXPECT_TRUE(window.cover({50, 55}).ok());
+  EXPECT_FALSE(window.cover({50, 75}).ok());
+}
+
+}  // namespace
+}  // namespace milepost

@@ -1,0 +1,151 @@
+#include "client/localize/pose_belief.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/Dense>
+
+namespace milepost {
+namespace {
+
+PoseBelief driving_belief() {
+  PoseBelief belief;
+  belief.mean << 30, -20, 2, 0.7, 0.02, -0.01, 0.03, 0.01, -0.02, 11, 0.15, 0.04;
+  StateVector sigmas;
+  sigmas << 0.1, 0.15, 0.2, 0.02, 0.01, 0.015, 0.01, 0.004, 0.004, 0.5, 0.1, 0.01;
+  belief.covariance = sigmas.cwiseAbs2().asDiagonal();
+  belief.covariance(kEast, kHeading) = belief.covariance(kHeading, kEast) = 0.5 * 0.1 * 0.02;
+  belief.covariance(kSpeed, kNorth) = belief.covariance(kNorth, kSpeed) = -0.4 * 0.5 * 0.15;
+  return belief;
+}
+
+// Drives small steps of time under white noise of acceleration, yaw acceleration, slip and
+// mounting; the camera tilts once, for a frame.
+class NoisyDrive {
+ public:
+  NoisyDrive(double slope, const PoseMotionSettings& settings)
+      : slope_(slope), settings_(settings) {}
+
+  StateVector after(StateVector state, double elapsed_s) {
+    constexpr int kSteps = 20;
+    const double dt = elapsed_s / kSteps;
+    for (int step = 0; step < kSteps; ++step) {
+      const double speed_gain = noise(settings_.acceleration_sigma, dt);
+      const double yaw_rate_gain = noise(settings_.yaw_acceleration_sigma, dt);
+      const double speed = state[kSpeed] + speed_gain / 2;
+      const double yaw_rate = state[kYawRate] + yaw_rate_gain / 2;
+      const double course_rad = state[kHeading] + yaw_rate * dt / 2 - state[kMounting];
+      state[kEast] += speed * dt * std::sin(course_rad) + noise(settings_.slip_sigma, dt);
+      state[kNorth] += speed * dt * std::cos(course_rad) + noise(settings_.slip_sigma, dt);
+      state[kUp] += speed * dt * slope_ + noise(settings_.slip_sigma, dt);
+      state[kHeading] += yaw_rate * dt;
+      state[kSpeed] += speed_gain;
+      state[kYawRate] += yaw_rate_gain;
+      state[kMounting] += noise(settings_.mounting_sigma, dt);
+    }
+    state[kPitch] += noise(settings_.tilt_sigma_rad, 1);
+    state[kRoll] += noise(settings_.tilt_sigma_rad, 1);
+    return state;
+  }
+
+  StateVector drawn(const PoseBelief& belief) {
+    StateVector unit;
+    for (double& value : unit) value = normal_(random_);
+    return belief.mean + belief.covariance.llt().matrixL() * unit;
+  }
+
+ private:
+  double noise(double sigma, double dt) { return sigma * std::sqrt(dt) * normal_(random_); }
+
+  double slope_;
+  PoseMotionSettings settings_;
+  std::mt19937 random_{3};
+  std::normal_distribution<double> normal_;
+};
+
+TEST(PoseBelief, PredictsWhatManyNoisyDrivesGive) {
+  constexpr int kDrives = 20000;
+  constexpr double kElapsedS = 0.1;
+  constexpr double kSlope = 0.05;
+  const PoseBelief before = driving_belief();
+  const PoseMotionSettings settings;
+  NoisyDrive drive(kSlope, settings);
+  std::vector<StateVector> states;
+  StateVector mean = StateVector::Zero();
+  for (int i = 0; i < kDrives; ++i) {
+    states.push_back(drive.after(drive.drawn(before), kElapsedS));
+    mean += states.back() / kDrives;
+  }
+  StateMatrix covariance = StateMatrix::Zero();
+  for (const StateVector& state : states) {
+    covariance += (state - mean) * (state - mean).transpose() / kDrives;
+  }
+  const PoseBelief after = predicted(before, kElapsedS, kSlope, settings);
+  for (int i = 0; i < kStates; ++i) {
+    const double variance_i = after.covariance(i, i);
+    EXPECT_NEAR(mean[i], after.mean[i], 5 * std::sqrt(variance_i / kDrives)) << i;
+    for (int j = 0; j <= i; ++j) {
+      const double expected = after.covariance(i, j);
+      const double sampling_error =
+          std::sqrt((variance_i * after.covariance(j, j) + expected * expected) / kDrives);
+      EXPECT_NEAR(covariance(i, j), expected, 4 * sampling_error) << i << ", " << j;
+    }
+  }
+}
+
+TEST(PoseBelief, PassesEachUncertaintyOnAsTheMeanMoves) {  // derivatives against numerical ones
+  constexpr double kElapsedS = 0.4;
+  constexpr double kSlope = -0.03;
+  const PoseMotionSettings settings;
+  PoseBelief certain = driving_belief();
+  certain.covariance.setZero();
+  const StateMatrix noise = predicted(certain, kElapsedS, kSlope, settings).covariance;
+  for (int j = 0; j < kStates; ++j) {
+    constexpr double kStep = 1e-4;
+    PoseBelief less = certain;
+    PoseBelief more = certain;
+    less.mean[j] -= kStep;
+    more.mean[j] += kStep;
+    const StateVector by_j = (predicted(more, kElapsedS, kSlope, settings).mean -
+                              predicted(less, kElapsedS, kSlope, settings).mean) /
+                             (2 * kStep);
+    PoseBelief unsure = certain;
+    unsure.covariance(j, j) = 1;
+    const StateMatrix passed_on = predicted(unsure, kElapsedS, kSlope, settings).covariance - noise;
+    EXPECT_LT((passed_on - by_j * by_j.transpose()).cwiseAbs().maxCoeff(), 1e-6) << j;
+  }
+}
+
+TEST(PoseBelief, DrivesAnArc) {
+  PoseBelief belief;
+  belief.mean[kHeading] = 0.3;
+  belief.mean[kMounting] = 0.3;  // so it drives to the north
+  belief.mean[kSpeed] = 10;
+  belief.mean[kYawRate] = 0.2;
+  for (int i = 0; i < 100; ++i) belief = predicted(belief, 0.05, 0, {});
+  const double radius_m = 10 / 0.2;
+  EXPECT_NEAR(belief.mean[kEast], radius_m * (1 - std::cos(1.0)), 1e-3);
+  EXPECT_NEAR(belief.mean[kNorth], radius_m * std::sin(1.0), 1e-3);
+  EXPECT_NEAR(belief.mean[kHeading], 1.3, 1e-12);
+}
+
+TEST(PoseBelief, StandsStill) {
+  PoseBelief before = driving_belief();
+  before.mean[kSpeed] = before.mean[kYawRate] = 0;
+  const PoseBelief after = predicted(before, 2, 0.1, {});
+  EXPECT_EQ(after.mean, before.mean);
+  EXPECT_GT(after.covariance(kEast, kEast), before.covariance(kEast, kEast));
+  // A camera that stands learns nothing new of where its mounting would lead it.
+  EXPECT_EQ(after.covariance(kEast, kMounting), 0);
+}
+
+TEST(PoseBelief, ClimbsWithTheRoad) {
+  PoseBelief before = driving_belief();
+  const PoseBelief after = predicted(before, 0.5, 0.08, {});
+  EXPECT_DOUBLE_EQ(after.mean[kUp], before.mean[kUp] + 11 * 0.5 * 0.08);
+}
+
+}  // namespace
+}  // namespace milepost

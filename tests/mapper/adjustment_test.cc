@@ -1,0 +1,123 @@
+#include "mapper/landmarks/adjustment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/mapper/made_up_street.h"
+
+namespace milepost {
+namespace {
+
+using testing::kStreetPinhole;
+using testing::MadeUpStreet;
+using testing::StreetPlan;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+
+const StreetPlan kNoisy{.mounting_deg = 1.5,
+                        .heading_noise_deg = 0.5,
+                        .position_noise_m = 0.04,
+                        .tilt_deg = 0.5,
+                        .pixel_noise_px = 0.5};
+
+struct Errors {
+  double position_m = 0;  // root mean squares
+  double heading_deg = 0;
+  double pitch_deg = 0;
+  double roll_deg = 0;
+};
+
+Errors errors_of(const std::vector<CameraPose>& poses, const std::vector<CameraPose>& truth,
+                 std::size_t first = 0) {
+  Errors sum;
+  for (std::size_t i = first; i < poses.size(); ++i) {
+    sum.position_m += (poses[i].enu_m - truth[i].enu_m).squaredNorm();
+    sum.heading_deg += std::pow((poses[i].heading_rad - truth[i].heading_rad) / kRadPerDeg, 2);
+    sum.pitch_deg += std::pow((poses[i].pitch_rad - truth[i].pitch_rad) / kRadPerDeg, 2);
+    sum.roll_deg += std::pow((poses[i].roll_rad - truth[i].roll_rad) / kRadPerDeg, 2);
+  }
+  const auto count = static_cast<double>(poses.size() - first);
+  return {std::sqrt(sum.position_m / count), std::sqrt(sum.heading_deg / count),
+          std::sqrt(sum.pitch_deg / count), std::sqrt(sum.roll_deg / count)};
+}
+
+bool same(const CameraPose& a, const CameraPose& b) {
+  return a.enu_m == b.enu_m && a.heading_rad == b.heading_rad && a.pitch_rad == b.pitch_rad &&
+         a.roll_rad == b.roll_rad;
+}
+
+// Every tenth track takes its second half from another: what a wrong match leaves.
+std::vector<PixelTrack> with_wrong_ones(std::vector<PixelTrack> tracks) {
+  for (std::size_t i = 0; i + 1 < tracks.size(); i += 10) {
+    PixelTrack& track = tracks[i];
+    for (std::size_t k = track.size() / 2; k < track.size(); ++k) {
+      track[k].pixel = tracks[i + 1][k % tracks[i + 1].size()].pixel;
+    }
+  }
+  return tracks;
+}
+
+TEST(AdjustPoses, FindsWhatTheRecordDoesNotSay) {
+  MadeUpStreet street(kNoisy);
+  std::vector<CameraPose> poses = street.recorded;
+  const Errors before = errors_of(poses, street.poses);
+  EXPECT_GT(before.heading_deg, 1.4);
+  EXPECT_GT(before.pitch_deg, 0.4);
+  adjust_poses(poses, 0, with_wrong_ones(street.sights_of_all()), kStreetPinhole, {});
+  const Errors after = errors_of(poses, street.poses);
+  EXPECT_LT(after.heading_deg, 0.1);
+  EXPECT_LT(after.pitch_deg, 0.1);
+  EXPECT_LT(after.roll_deg, 0.25);
+  EXPECT_LT(after.position_m, before.position_m);
+}
+
+TEST(AdjustPoses, SettledPosesDoNotMove) {
+  MadeUpStreet street(kNoisy);
+  std::vector<CameraPose> poses = street.recorded;
+  for (std::size_t i = 0; i < 10; ++i) poses[i] = street.poses[i];
+  adjust_poses(poses, 10, street.sights_of_all(), kStreetPinhole, {});
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_TRUE(same(poses[i], street.poses[i])) << i;
+  const Errors after = errors_of(poses, street.poses, 10);
+  EXPECT_LT(after.heading_deg, 0.1);
+  EXPECT_LT(after.pitch_deg, 0.1);
+}
+
+TEST(AdjustPoses, TheSameInputGivesTheSamePoses) {
+  std::vector<std::vector<CameraPose>> runs;
+  for (int run = 0; run < 2; ++run) {
+    MadeUpStreet street(kNoisy);
+    runs.push_back(street.recorded);
+    adjust_poses(runs.back(), 0, with_wrong_ones(street.sights_of_all()), kStreetPinhole, {});
+  }
+  for (std::size_t i = 0; i < runs[0].size(); ++i) EXPECT_TRUE(same(runs[0][i], runs[1][i])) << i;
+}
+
+TEST(AdjustPoses, WithoutTracksPosesStayAsRecorded) {
+  const MadeUpStreet street(kNoisy);
+  std::vector<CameraPose> poses = street.recorded;
+  adjust_poses(poses, 3, {}, kStreetPinhole, {});
+  const Errors moved = errors_of(poses, street.recorded);
+  EXPECT_LT(moved.position_m, 1e-9);
+  EXPECT_LT(moved.heading_deg, 1e-9);
+  EXPECT_LT(moved.pitch_deg, 1e-9);
+  EXPECT_LT(moved.roll_deg, 1e-9);
+}
+
+// What is settled has its mounting in it: it says nothing of the mounting any more.
+TEST(AdjustPoses, SettledPosesDoNotHideTheMounting) {
+  MadeUpStreet street({.frames = 30, .points = 400, .mounting_deg = 1.5, .pixel_noise_px = 0.3});
+  std::vector<CameraPose> poses = street.recorded;
+  for (std::size_t i = 0; i < 20; ++i) poses[i] = street.poses[i];
+  std::vector<PixelTrack> tracks;  // none of the last two frames: only their records say anything
+  for (PixelTrack& track : street.sights_of_all()) {
+    std::erase_if(track, [](const Sight& sight) { return sight.frame >= 28; });
+    if (track.size() >= 3) tracks.push_back(std::move(track));
+  }
+  adjust_poses(poses, 20, tracks, kStreetPinhole, {});
+  EXPECT_NEAR(poses[29].heading_rad / kRadPerDeg, street.poses[29].heading_rad / kRadPerDeg, 0.15);
+}
+
+}  // namespace
+}  // namespace milepost

@@ -1,0 +1,162 @@
+// Whole maps of a street that the simulator drives, as milepost-mapper makes them.
+#include "mapper/build/build_map.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "schema/feature/codebook.h"
+#include "schema/store/map_store.h"
+#include "schema/tile/codec.h"
+#include "tests/simulator/record.h"
+#include "tests/support/temp_folder.h"
+
+namespace milepost {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::Key;
+using testing::TempFolder;
+using ::testing::UnorderedElementsAre;
+
+// Recorded once: 60 m of the street through a small camera.
+const Drive& street() {
+  static const TempFolder folder;
+  static const Drive drive = [] {
+    const simulator::Town town = simulator::make_town(3);
+    const simulator::Lighting lighting = simulator::light_town(town, simulator::noon_light());
+    for (simulator::RunPlan run : simulator::make_runs(town.network, town.seed, 60)) {
+      if (run.name != "street-map") continue;
+      run.camera = {300, 250, 178.75, 200.05, 150, 125};
+      EXPECT_TRUE(simulator::record(town, lighting, run, folder.path(), 2).ok());
+    }
+    return read_drive(folder.path()).value();
+  }();
+  return drive;
+}
+
+// A map in a folder of its own.
+class BuiltMap {
+ public:
+  explicit BuiltMap(const BuildSettings& settings = {}, int jobs = 2) {
+    const auto built =
+        build_map({street()}, file(), settings, jobs, [](const BuildProgress&) { return true; });
+    EXPECT_TRUE(built.ok());
+    if (built) report = *built;
+  }
+  std::filesystem::path file() const { return folder_ / "street.map"; }
+  MapReader reader() const { return MapReader::open(file()).value(); }
+  std::string bytes() const {
+    std::ostringstream content;
+    content << std::ifstream(file(), std::ios::binary).rdbuf();
+    return content.str();
+  }
+
+  BuildReport report;
+
+ private:
+  TempFolder folder_;
+};
+
+BuildSettings laboratory() {
+  BuildSettings settings;
+  settings.lab = true;
+  return settings;
+}
+
+TEST(BuildMap, TheDefaultMapHoldsLandmarksAndTheirCodebook) {
+  const BuiltMap map;
+  const MapReader reader = map.reader();
+  ASSERT_THAT(reader.layers(), ElementsAre(Key("tracklets")));
+  const json parameters = json::parse(reader.layers().at("tracklets"));
+  EXPECT_EQ(parameters.at("items"), "landmarks");
+  EXPECT_EQ(parameters.at("tile_length_m"), 20);
+  EXPECT_EQ(parameters.at("focal_px"), json({178.75, 200.05}));
+  const Result<Codebook> codebook = Codebook::from_json(parameters.at("codebook").dump());
+  ASSERT_TRUE(codebook.ok()) << codebook.error().line();
+  EXPECT_EQ(codebook->step(), BuildSettings{}.codebook_step);
+  EXPECT_FALSE(parameters.contains("model"));
+}
+
+TEST(BuildMap, TheIndexHoldsEveryLandmarkAndTheReportCountsThem) {
+  const BuiltMap map;
+  const MapReader reader = map.reader();
+  ASSERT_THAT(reader.segment_ids(), ElementsAre("street-map"));
+  std::size_t landmarks = 0;
+  std::uint64_t bytes = 0;
+  const auto index = reader.tile_index("street-map", "tracklets").value();
+  ASSERT_GE(index.size(), 2U);
+  for (const TileEntry& entry : index) {
+    const Bytes frame = reader.tile("street-map", "tracklets", entry.index).value();
+    const Result<LandmarkTile> tile = decode_landmarks(frame);
+    ASSERT_TRUE(tile.ok()) << tile.error().line();
+    EXPECT_EQ(tile->landmarks.size(), entry.items);
+    for (const Landmark& landmark : tile->landmarks) {
+      EXPECT_LE(entry.along.from_m, landmark.along.from_m);
+      EXPECT_GE(entry.along.to_m, landmark.along.to_m);
+    }
+    landmarks += tile->landmarks.size();
+    bytes += frame.size();
+  }
+  EXPECT_GT(landmarks, 50U);
+  EXPECT_EQ(map.report.tracklets, landmarks);
+  EXPECT_EQ(map.report.tracklet_bytes, bytes);
+  EXPECT_EQ(map.report.tiles, index.size());
+}
+
+TEST(BuildMap, NoTileOfLandmarksWeighsMoreThanTheTarget) {
+  BuildSettings settings;
+  settings.landmarks.size_target_kb_per_m = 0.1;
+  const BuiltMap map(settings);
+  const MapReader reader = map.reader();
+  const double length_m = reader.segment("street-map")->length_m;
+  const auto index = reader.tile_index("street-map", "tracklets").value();
+  ASSERT_GE(index.size(), 2U);
+  for (const TileEntry& entry : index) {
+    EXPECT_LE(static_cast<double>(entry.bytes),
+              100 * std::min(20.0, length_m - 20.0 * entry.index));
+  }
+  EXPECT_LT(map.report.tracklet_bytes, BuiltMap().report.tracklet_bytes);
+}
+
+TEST(BuildMap, TheSameBytesForAnyNumberOfJobs) {
+  const std::string with_one = BuiltMap(laboratory(), 1).bytes();
+  EXPECT_TRUE(with_one == BuiltMap(laboratory(), 4).bytes());
+}
+
+TEST(BuildMap, TheLaboratorysMapHoldsTheOtherMethodsLayersToo) {
+  const BuiltMap map(laboratory());
+  const MapReader reader = map.reader();
+  const auto items_of = [&](const std::string& layer) {
+    return json::parse(reader.layers().at(layer)).at("items").get<std::string>();
+  };
+  ASSERT_THAT(
+      reader.layers(),
+      UnorderedElementsAre(Key("frames"), Key("observations"), Key("tracklets"),
+                           Key("tracklets-inverse-scale"), Key("tracklets-scale"), Key("wisurf")));
+  EXPECT_EQ(items_of("tracklets"), "landmarks");
+  EXPECT_EQ(items_of("tracklets-inverse-scale"), "tracklets");
+  EXPECT_EQ(json::parse(reader.layers().at("tracklets-inverse-scale")).at("model"),
+            "inverse-scale");
+  EXPECT_EQ(json::parse(reader.layers().at("tracklets-scale")).at("model"), "scale");
+  for (const auto& [layer, parameters] : reader.layers()) {
+    EXPECT_FALSE(reader.tile_index("street-map", layer)->empty()) << layer;
+  }
+  // The default layer is that of the default map.
+  const BuiltMap plain_map;
+  const MapReader plain = plain_map.reader();
+  const auto index = plain.tile_index("street-map", "tracklets").value();
+  for (const TileEntry& entry : index) {
+    EXPECT_EQ(reader.tile("street-map", "tracklets", entry.index).value(),
+              plain.tile("street-map", "tracklets", entry.index).value());
+  }
+}
+
+}  // namespace
+}  // namespace milepost

@@ -1,0 +1,159 @@
+#include "mapper/build/landmark_layer_builder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "schema/tile/codec.h"
+#include "tests/mapper/made_up_street.h"
+
+namespace milepost {
+namespace {
+
+using testing::kFrameSpacingM;
+using testing::kStreetCamera;
+using testing::MadeUpStreet;
+
+constexpr double kEnd = std::numeric_limits<double>::infinity();
+constexpr double kTileLengthM = 20;
+constexpr std::size_t kFrames = 96;  // 187 m: the last tile's stretch is shorter
+
+struct MadeLayer {
+  double length_m = 0;
+  std::vector<StoredTile> tiles;
+};
+
+Codebook codebook() {
+  std::vector<Descriptor> descriptors;
+  for (std::size_t i = 0; i < 1000; ++i) descriptors.push_back(testing::descriptor_of(i));
+  return Codebook::trained(descriptors, 0.02);
+}
+
+// The tiles of a street of 900 points, as they become complete.
+MadeLayer layer_of(double size_target_kb_per_m) {
+  MadeUpStreet street({.frames = kFrames,
+                       .points = 900,
+                       .mounting_deg = 1,
+                       .heading_noise_deg = 0.3,
+                       .tilt_deg = 0.3,
+                       .pixel_noise_px = 0.3});
+  std::vector<GeoPoint> vertices;
+  for (std::size_t i = 0; i < kFrames; ++i) vertices.push_back(street.frame(i).position);
+  const RouteLine line = RouteLine::from_vertices(std::move(vertices)).value();
+  const Codebook compact = codebook();
+  const SegmentContext context{"s", kStreetCamera, line, compact, kTileLengthM};
+  LandmarkLayerSettings settings;
+  settings.size_target_kb_per_m = size_target_kb_per_m;
+  settings.landmarks.window_frames = 30;
+  settings.landmarks.overlap_frames = 20;
+  const auto builder =
+      make_layer_builder({"tracklets", LayerItems::landmarks, {}, {}, settings}, context);
+
+  std::map<std::size_t, std::vector<Track>> ended;
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    Track track = street.track_of(i);
+    if (track.empty()) continue;
+    const auto last = static_cast<std::size_t>(std::lround(track.back().along_m / kFrameSpacingM));
+    ended[last + 1].push_back(std::move(track));
+  }
+  MadeLayer made{line.length_m(), {}};
+  for (std::size_t i = 0; i <= kFrames; ++i) {
+    double complete_until_m = kEnd;
+    if (i < kFrames) {
+      builder->add_frame(street.frame(i), {}, static_cast<double>(i) * kFrameSpacingM);
+      complete_until_m = static_cast<double>(i) * kFrameSpacingM;
+      for (const auto& [at, tracks] : ended) {  // where the oldest open track begins
+        if (at <= i) continue;
+        for (const Track& track : tracks) {
+          complete_until_m = std::min(complete_until_m, track.front().along_m);
+        }
+      }
+    }
+    builder->add_tracks(ended[i]);
+    auto tiles = builder->take_complete(complete_until_m);
+    EXPECT_TRUE(tiles.ok());
+    for (StoredTile& tile : *tiles) made.tiles.push_back(std::move(tile));
+  }
+  return made;
+}
+
+TEST(LandmarkLayerBuilder, NoTileWeighsMoreThanItsStretchMay) {
+  std::map<double, std::size_t> items;
+  for (const double target_kb_per_m : {0.05, 0.2, 0.5}) {
+    SCOPED_TRACE(target_kb_per_m);
+    const MadeLayer made = layer_of(target_kb_per_m);
+    ASSERT_GE(made.tiles.size(), 8U);
+    double bytes = 0;
+    for (const StoredTile& tile : made.tiles) {
+      const double stretch_m = std::min(kTileLengthM, made.length_m - tile.index * kTileLengthM);
+      EXPECT_LE(static_cast<double>(tile.frame.size()), 1000 * target_kb_per_m * stretch_m)
+          << tile.index;
+      bytes += static_cast<double>(tile.frame.size());
+      items[target_kb_per_m] += tile.items;
+    }
+    if (target_kb_per_m < 0.1) {  // there are landmarks enough to fill it
+      EXPECT_GT(bytes, 800 * target_kb_per_m * 160);
+    }
+  }
+  EXPECT_LT(items[0.05], items[0.2]);
+  EXPECT_LE(items[0.2], items[0.5]);
+  EXPECT_GT(items[0.5], 500U);
+}
+
+TEST(LandmarkLayerBuilder, EachTileComesOnceWithARangeThatHoldsItsLandmarks) {
+  const MadeLayer made = layer_of(0.2);
+  std::uint32_t next = 0;
+  for (const StoredTile& tile : made.tiles) {
+    EXPECT_GE(tile.index, next);
+    next = tile.index + 1;
+    const Result<LandmarkTile> read = decode_landmarks(tile.frame);
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(read->segment, "s");
+    EXPECT_EQ(read->index, tile.index);
+    EXPECT_DOUBLE_EQ(read->origin_m, tile.index * kTileLengthM);
+    ASSERT_EQ(read->landmarks.size(), tile.items);
+    for (const Landmark& landmark : read->landmarks) {
+      EXPECT_LE(tile.along.from_m, landmark.along.from_m);
+      EXPECT_GE(tile.along.to_m, landmark.along.to_m);
+      EXPECT_GE(landmark.along.from_m, read->origin_m);
+      EXPECT_LE(landmark.along.from_m, read->origin_m + kTileLengthM + 0.1);
+    }
+  }
+}
+
+TEST(LandmarkLayerBuilder, ATileThatHoldsNothingIsNotStored) {
+  EXPECT_THAT(layer_of(0.001).tiles, ::testing::IsEmpty());  // 20 bytes are less than any tile
+}
+
+// What was stored lies where the street's points lie.
+TEST(LandmarkLayerBuilder, LandmarksLieInTheirTilesFrame) {
+  MadeUpStreet street({.frames = kFrames, .points = 900, .pixel_noise_px = 0.3});
+  const RouteLine line = [&] {
+    std::vector<GeoPoint> vertices;
+    for (std::size_t i = 0; i < kFrames; ++i) vertices.push_back(street.frame(i).position);
+    return RouteLine::from_vertices(std::move(vertices)).value();
+  }();
+  std::size_t near = 0;
+  std::size_t all = 0;
+  for (const StoredTile& tile : layer_of(0.2).tiles) {
+    const Result<LandmarkTile> read = decode_landmarks(tile.frame);
+    ASSERT_TRUE(read.ok());
+    const LocalFrame local(line.point_at(read->origin_m));
+    for (const Landmark& landmark : read->landmarks) {
+      const Eigen::Vector3d at = MadeUpStreet::enu_of(local.geo_from_enu(landmark.position));
+      const bool is_near =
+          std::any_of(street.points.begin(), street.points.end(),
+                      [&](const auto& point) { return (point.enu_m - at).norm() < 0.3; });
+      near += is_near ? 1U : 0U;
+      ++all;
+    }
+  }
+  EXPECT_GT(all, 200U);
+  EXPECT_GT(static_cast<double>(near), 0.8 * static_cast<double>(all));
+}
+
+}  // namespace
+}  // namespace milepost

@@ -1,0 +1,279 @@
+#include "mapper/landmarks/landmark_mapper.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+
+#include "tests/mapper/made_up_street.h"
+
+namespace milepost {
+namespace {
+
+using testing::descriptor_of;
+using testing::kFrameSpacingM;
+using testing::kStreetCamera;
+using testing::MadeUpStreet;
+using testing::StreetPlan;
+
+const StreetPlan kNoisy{.mounting_deg = 1.5,
+                        .heading_noise_deg = 0.3,
+                        .position_noise_m = 0.03,
+                        .tilt_deg = 0.3,
+                        .pixel_noise_px = 0.3};
+
+LandmarkSettings in_windows(std::size_t frames, std::size_t overlap) {
+  LandmarkSettings settings;
+  settings.window_frames = frames;
+  settings.overlap_frames = overlap;
+  return settings;
+}
+
+// Feeds a street's frames and tracks to a mapper as a build does: each track with the first frame
+// that does not continue it.
+class Drive {
+ public:
+  using Change = std::function<void(std::size_t point, Track&)>;
+
+  Drive(MadeUpStreet& street, const LandmarkSettings& settings, const Change& change = {})
+      : street_(street), mapper_(kStreetCamera, settings) {
+    for (std::size_t i = 0; i < street.points.size(); ++i) {
+      Track track = street.track_of(i);
+      if (track.empty()) continue;
+      if (change) change(i, track);
+      const auto last =
+          static_cast<std::size_t>(std::lround(track.back().along_m / kFrameSpacingM));
+      ended_[last + 1].push_back(std::move(track));
+    }
+  }
+
+  void add_frame(std::size_t i) {
+    mapper_.add_frame(street_.frame(i), static_cast<double>(i) * kFrameSpacingM);
+    mapper_.add_tracks(ended_[i]);
+    take(false);
+  }
+  void finish() {
+    mapper_.add_tracks(ended_[street_.poses.size()]);
+    take(true);
+  }
+  const LandmarkMapper& mapper() const { return mapper_; }
+  const std::vector<MappedLandmark>& mapped() const { return mapped_; }
+
+ private:
+  void take(bool finished) {
+    const std::vector<MappedLandmark> taken = mapper_.take_mapped(finished);
+    mapped_.insert(mapped_.end(), taken.begin(), taken.end());
+  }
+
+  MadeUpStreet& street_;
+  LandmarkMapper mapper_;
+  std::map<std::size_t, std::vector<Track>> ended_;
+  std::vector<MappedLandmark> mapped_;
+};
+
+std::vector<MappedLandmark> mapped(MadeUpStreet& street, const LandmarkSettings& settings) {
+  Drive drive(street, settings);
+  for (std::size_t i = 0; i < street.poses.size(); ++i) drive.add_frame(i);
+  drive.finish();
+  return drive.mapped();
+}
+
+std::map<Descriptor, MappedLandmark> by_descriptor(const std::vector<MappedLandmark>& landmarks) {
+  std::map<Descriptor, MappedLandmark> found;
+  for (const MappedLandmark& landmark : landmarks) found[landmark.descriptor] = landmark;
+  return found;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+// Distances of the landmarks from where their points truly are.
+std::vector<double> place_errors_m(const MadeUpStreet& street,
+                                   const std::vector<MappedLandmark>& landmarks) {
+  const auto found = by_descriptor(landmarks);
+  std::vector<double> errors_m;
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    const auto at = found.find(descriptor_of(i));
+    if (at == found.end()) continue;
+    errors_m.push_back((MadeUpStreet::enu_of(at->second.position) - street.points[i].enu_m).norm());
+  }
+  return errors_m;
+}
+
+TEST(LandmarkMapper, ExactTracksGiveTheTruePlacesAndSizes) {
+  MadeUpStreet street({});
+  const std::vector<MappedLandmark> landmarks = mapped(street, {});
+  EXPECT_GT(landmarks.size(), 200U);
+  EXPECT_LT(quantile(place_errors_m(street, landmarks), 1), 0.02);
+  const auto found = by_descriptor(landmarks);
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    const auto at = found.find(descriptor_of(i));
+    if (at == found.end()) continue;
+    const Track track = street.track_of(i);
+    const MappedLandmark& landmark = at->second;
+    EXPECT_NEAR(landmark.size_m / street.points[i].size_m, 1, 1e-3);
+    EXPECT_LT(landmark.size_sigma, 1e-3);
+    EXPECT_EQ(landmark.observations, track.size());
+    EXPECT_EQ(landmark.along.from_m, track.front().along_m);
+    EXPECT_EQ(landmark.along.to_m, track.back().along_m);
+    const auto first =
+        static_cast<std::size_t>(std::lround(track.front().along_m / kFrameSpacingM));
+    EXPECT_NEAR(landmark.depth_m, (street.points[i].enu_m - street.poses[first].enu_m).norm(),
+                0.02);
+  }
+}
+
+TEST(LandmarkMapper, NoisyDrivesGiveNearlyTheTruePlacesAndSizes) {
+  MadeUpStreet street(kNoisy);
+  const std::vector<MappedLandmark> landmarks = mapped(street, {});
+  EXPECT_GT(landmarks.size(), 200U);
+  const std::vector<double> errors_m = place_errors_m(street, landmarks);
+  EXPECT_LT(quantile(errors_m, 0.5), 0.15);
+  EXPECT_LT(quantile(errors_m, 0.9), 0.5);
+  const auto found = by_descriptor(landmarks);
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    const auto at = found.find(descriptor_of(i));
+    if (at == found.end()) continue;
+    EXPECT_NEAR(at->second.size_m / street.points[i].size_m, 1,
+                0.02 + 4 * at->second.depth_sigma_m / at->second.depth_m);
+  }
+}
+
+TEST(LandmarkMapper, SeveralWindowsGiveWhatOneGives) {
+  StreetPlan plan = kNoisy;
+  plan.frames = 100;
+  plan.points = 700;
+  plan.position_noise_m = 0;
+  MadeUpStreet street(plan);
+  MadeUpStreet again(plan);
+  const auto in_one = by_descriptor(mapped(street, in_windows(200, 20)));
+  const auto in_several = by_descriptor(mapped(again, in_windows(30, 20)));
+  ASSERT_GT(in_one.size(), 500U);
+  std::vector<double> distances_m;
+  for (const auto& [descriptor, landmark] : in_one) {
+    const auto at = in_several.find(descriptor);
+    if (at == in_several.end()) continue;
+    distances_m.push_back(
+        (MadeUpStreet::enu_of(at->second.position) - MadeUpStreet::enu_of(landmark.position))
+            .norm());
+  }
+  EXPECT_GT(distances_m.size(), 0.97 * static_cast<double>(in_one.size()));
+  EXPECT_LT(quantile(distances_m, 0.5), 0.05);
+  EXPECT_LT(quantile(distances_m, 0.95), 0.3);
+}
+
+// The open track began before all frames that ended tracks and the next window hold.
+TEST(LandmarkMapper, ATrackMayBeLongerThanTheOverlap) {
+  MadeUpStreet street({.frames = 70, .farthest_m = 90});
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    if (street.track_of(i).size() > street.track_of(longest).size()) longest = i;
+  }
+  ASSERT_GT(street.track_of(longest).size(), 30U);
+  Drive drive(street, in_windows(15, 5), [&](std::size_t i, Track& track) {
+    const bool is_short = i != longest && track.size() > 6;
+    if (is_short) track.erase(track.begin(), track.end() - 6);
+  });
+  for (std::size_t i = 0; i < street.poses.size(); ++i) drive.add_frame(i);
+  drive.finish();
+  const auto found = by_descriptor(drive.mapped());
+  ASSERT_EQ(found.count(descriptor_of(longest)), 1U);
+  const MappedLandmark& landmark = found.at(descriptor_of(longest));
+  EXPECT_LT((MadeUpStreet::enu_of(landmark.position) - street.points[longest].enu_m).norm(), 0.1);
+  EXPECT_EQ(landmark.along.from_m, street.track_of(longest).front().along_m);
+}
+
+// At the camera's height it would move along the lines that a standing point's images move along.
+TEST(LandmarkMapper, LeavesOutWhatMoves) {
+  MadeUpStreet street(kNoisy);
+  std::vector<std::size_t> movers;
+  for (std::size_t i = 0; i < street.points.size(); i += 15) {
+    street.points[i].step_m = {0.26, -0.15, 0};  // across the road, 1.5 m/s at 35 km/h
+    street.points[i].enu_m -= 20 * street.points[i].step_m;
+    street.points[i].enu_m.z() = 6;
+    if (street.track_of(i).size() >= 8) movers.push_back(i);
+  }
+  ASSERT_GE(movers.size(), 8U);
+  const auto found = by_descriptor(mapped(street, {}));
+  EXPECT_GT(found.size(), 200U);
+  for (const std::size_t i : movers) {
+    const auto track = street.track_of(i);
+    EXPECT_EQ(found.count(descriptor_of(i)), 0U) << track.size() << " observations";
+  }
+}
+
+TEST(LandmarkMapper, LeavesOutWhatIsTooFarOrTooUncertain) {
+  MadeUpStreet street(kNoisy);
+  LandmarkSettings settings;
+  settings.max_distance_m = 30;
+  settings.max_depth_sigma = 0.05;
+  const std::size_t all = mapped(street, {}).size();
+  const std::vector<MappedLandmark> landmarks = mapped(street, settings);
+  EXPECT_THAT(landmarks.size(), ::testing::AllOf(::testing::Gt(20U), ::testing::Lt(all)));
+  for (const MappedLandmark& landmark : landmarks) {
+    EXPECT_LE(landmark.depth_m, 30);
+    EXPECT_LE(landmark.depth_sigma_m, 0.05 * landmark.depth_m);
+  }
+}
+
+// What waits lies within the latest frames of a window, its overlaps and the longest track.
+TEST(LandmarkMapper, NothingWaitsForLong) {
+  StreetPlan plan;
+  plan.frames = 300;
+  plan.points = 600;
+  plan.turn_deg = 0;
+  MadeUpStreet street(plan);
+  Drive drive(street, in_windows(20, 5));
+  double promised_m = 0;
+  const double longest_m = (20 + 2 * 5) * kFrameSpacingM + plan.farthest_m;
+  for (std::size_t i = 0; i < street.poses.size(); ++i) {
+    const std::size_t before = drive.mapped().size();
+    const double along_m = static_cast<double>(i) * kFrameSpacingM;
+    promised_m = drive.mapper().oldest_waiting_along_m();
+    drive.add_frame(i);
+    EXPECT_GE(drive.mapper().oldest_waiting_along_m(), along_m - longest_m);
+    for (std::size_t k = before; k < drive.mapped().size(); ++k) {
+      EXPECT_GE(drive.mapped()[k].along.from_m,
+                std::min(promised_m, along_m - plan.farthest_m - 2));
+    }
+  }
+  drive.finish();
+  EXPECT_EQ(drive.mapper().oldest_waiting_along_m(), std::numeric_limits<double>::infinity());
+  EXPECT_GT(drive.mapped().size(), 500U);
+}
+
+TEST(LandmarkMapper, HeadingsMayCrossNorth) {
+  StreetPlan plan = kNoisy;
+  plan.frames = 60;
+  plan.points = 450;
+  for (const double heading_deg : {100.0, 352.0}) {  // 352 turns to 16 degrees
+    SCOPED_TRACE(heading_deg);
+    plan.heading_deg = heading_deg;
+    MadeUpStreet street(plan);
+    const std::vector<MappedLandmark> landmarks = mapped(street, in_windows(20, 10));
+    EXPECT_GT(landmarks.size(), 300U);
+    EXPECT_LT(quantile(place_errors_m(street, landmarks), 0.5), 0.2);
+  }
+}
+
+TEST(LandmarkMapper, TheSameDriveGivesTheSameLandmarks) {
+  std::vector<std::vector<MappedLandmark>> runs;
+  for (int run = 0; run < 2; ++run) {
+    MadeUpStreet street(kNoisy);
+    runs.push_back(mapped(street, in_windows(15, 5)));
+  }
+  ASSERT_EQ(runs[0].size(), runs[1].size());
+  for (std::size_t i = 0; i < runs[0].size(); ++i) {
+    EXPECT_EQ(runs[0][i].position, runs[1][i].position);
+    EXPECT_EQ(runs[0][i].depth_sigma_m, runs[1][i].depth_sigma_m);
+  }
+}
+
+}  // namespace
+}  // namespace milepost
