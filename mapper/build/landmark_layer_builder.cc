@@ -35,8 +35,8 @@ void LandmarkLayerBuilder::add_tracks(const std::vector<Track>& tracks) {
 }
 
 Result<std::vector<StoredTile>> LandmarkLayerBuilder::take_complete(double along_m) {
-  for (MappedLandmark& landmark : mapper_.take_mapped(std::isinf(along_m))) {
-    assembler_.add(std::move(landmark));
+  for (const MappedLandmark& landmark : mapper_.take_mapped(std::isinf(along_m))) {
+    assembler_.add(landmark);
   }
   std::vector<StoredTile> tiles;
   const double complete_until_m = std::min(along_m, mapper_.oldest_waiting_along_m());
@@ -67,6 +67,7 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
                                     ranked.begin() + static_cast<std::ptrdiff_t>(count));
     std::sort(chosen.begin(), chosen.end());  // back in the order of where they begin
     std::vector<MappedLandmark> taken;
+    taken.reserve(chosen.size());
     for (const std::size_t i : chosen) taken.push_back(landmarks[i]);
     const LandmarkTile tile = packed(index, taken);
     Bytes frame = encode_landmarks(tile);
@@ -75,6 +76,7 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
       continue;
     }
     fits = count;
+    if (tile.landmarks.empty()) continue;  // none within reach
     best = {index, tile.along(), tile.landmarks.size(), std::move(frame)};
     best_chosen = std::move(chosen);
   }

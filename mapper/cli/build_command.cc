@@ -58,7 +58,7 @@ void add_options(CLI::App& app, BuildOptions& options) {
   setting("size-target-kb-per-m", settings.landmarks.size_target_kb_per_m, "KB",
           "What the default method's layer weighs at most: more landmarks are more exact", 0.01,
           1000);
-  setting("tile-length-m", settings.tile_length_m, "M", "Length of road a tile", 1, 1000);
+  setting("tile-length-m", settings.tile_length_m, "M", "Length of road a tile", 1, 100);
   setting("min-frame-spacing-m", settings.min_frame_spacing_m, "M",
           "Frames nearer to the last one are passed over", 0.01, 100);
 }

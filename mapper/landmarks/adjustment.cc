@@ -156,11 +156,13 @@ void adjust_poses(std::vector<CameraPose>& poses, std::size_t settled,
                   const std::vector<PixelTrack>& tracks, const Pinhole& camera,
                   const AdjustmentSettings& settings) {
   std::vector<PoseBlock> recorded;
+  recorded.reserve(poses.size());
   for (const CameraPose& pose : poses) recorded.push_back(block_from(pose));
   for (const double max_rms_px : {settings.max_first_rms_px, settings.max_rms_px}) {
     std::vector<PlacedTrack> fitting =
         tracks_that_fit(tracks, poses, camera, max_rms_px, settings.tracks_a_frame);
     std::vector<PoseBlock> blocks;
+    blocks.reserve(poses.size());
     for (const CameraPose& pose : poses) blocks.push_back(block_from(pose));
     solve(blocks, recorded, settled, fitting, camera, settings);
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_from(blocks[i].data());

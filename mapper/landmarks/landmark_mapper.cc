@@ -27,6 +27,7 @@ LogSize log_size_of(const PixelTrack& track, const std::vector<double>& scales_p
                     const std::vector<CameraPose>& poses, const Eigen::Vector3d& enu_m,
                     double focal_px) {
   std::vector<double> logs;
+  logs.reserve(track.size());
   for (std::size_t i = 0; i < track.size(); ++i) {
     const double depth_m = seen_from(poses[track[i].frame], enu_m).z();
     logs.push_back(std::log(scales_px[i] * depth_m / focal_px));
@@ -91,6 +92,7 @@ void LandmarkMapper::settle(std::size_t frames, std::size_t settled_after,
                             std::vector<MappedLandmark>& mapped) {
   const LocalFrame local(frames_.front().position);
   std::vector<CameraPose> poses;
+  poses.reserve(frames);
   for (std::size_t i = 0; i < frames; ++i) {
     const RecordedPose& recorded = frames_[i];
     const EnuPoint at = local.enu_from_geo(recorded.position);
