@@ -1,18 +1,17 @@
 #include <cmath>
-#include <numbers>
 
 #include "client/localize/follower.h"
 #include "client/localize/landmark_matching.h"
 #include "client/localize/pose_consensus.h"
+#include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kMaxOriginDistanceM = 300;  // then the tangent frame is laid anew
 constexpr double kProjectionReachM = 40;     // beyond what was driven since the last sight
 
-// The estimates' covariance as that of along and across the line.
+// A belief about the pose as one about along and across the line.
 struct Placed {
   double along_m = 0;  // beyond the line's ends, too
   double lateral_m = 0;

@@ -16,9 +16,39 @@ bool mapped_in(const PlacedLandmark& landmark, const AlongRange& region, double 
   return landmark.along.widened(margin_m).meets(region);
 }
 
+// A map may come with a step so small that no whole number holds the square.
 int squared_steps(double distance, double codebook_step) {
-  return static_cast<int>(std::pow(distance / codebook_step, 2));
+  return static_cast<int>(std::min<double>(kFar, std::pow(distance / codebook_step, 2)));
 }
+
+// The candidate most alike, and how much alike the next one at another place is.
+class NearestTwo {
+ public:
+  template <class SamePlace>
+  void offer(int squared, std::size_t candidate, const SamePlace& same_place) {
+    if (squared >= second_) return;
+    const bool other_place = best_ == kFar || !same_place(nearest_, candidate);
+    if (squared < best_) {
+      if (other_place) second_ = best_;
+      best_ = squared;
+      nearest_ = candidate;
+    } else if (other_place) {
+      second_ = squared;
+    }
+  }
+
+  // Whether the nearest is alike enough, and more than the next by the ratio of distances.
+  bool is_distinct(int max_squared, double max_ratio) const {
+    return best_ < max_squared && best_ <= max_ratio * max_ratio * second_;
+  }
+  std::size_t nearest() const { return nearest_; }
+  int squared() const { return best_; }
+
+ private:
+  int best_ = kFar;  // squared distances
+  int second_ = kFar;
+  std::size_t nearest_ = 0;
+};
 
 // Where a landmark is expected in the image.
 struct ExpectedSight {
@@ -74,28 +104,18 @@ std::vector<LandmarkMatch> match_anywhere(const CompactFrame& frame, double code
     if (mapped_in(landmarks[i], region, settings.along_margin_m)) mapped.push_back(i);
   }
   const int max_squared = squared_steps(settings.max_distance, codebook_step);
-  const double max_ratio_squared = std::pow(settings.max_distance_ratio, 2);
+  const auto same_place = [&](std::size_t a, std::size_t b) {
+    return (landmarks[a].enu_m - landmarks[b].enu_m).norm() <= settings.same_place_m;
+  };
   std::vector<LandmarkMatch> matches;
   for (std::size_t f = 0; f < frame.features.size(); ++f) {
-    int best = kFar;
-    int second = kFar;
-    std::size_t nearest = landmarks.size();
+    NearestTwo alike;
     for (const std::size_t i : mapped) {
-      const int squared = distance_squared(frame.descriptors[f], landmarks[i].descriptor);
-      if (squared >= std::min(second, kFar)) continue;
-      const bool other_place =
-          nearest == landmarks.size() ||
-          (landmarks[i].enu_m - landmarks[nearest].enu_m).norm() > settings.same_place_m;
-      if (squared < best) {
-        if (nearest != landmarks.size() && other_place) second = best;
-        best = squared;
-        nearest = i;
-      } else if (other_place) {
-        second = squared;
-      }
+      alike.offer(distance_squared(frame.descriptors[f], landmarks[i].descriptor), i, same_place);
     }
-    if (best >= max_squared) continue;
-    if (best <= max_ratio_squared * second) matches.push_back({f, nearest});
+    if (alike.is_distinct(max_squared, settings.max_distance_ratio)) {
+      matches.push_back({f, alike.nearest()});
+    }
   }
   return matches;
 }
@@ -111,15 +131,17 @@ std::vector<LandmarkMatch> match_expected(const CompactFrame& frame, double code
   };
   std::vector<Claim> claims(frame.features.size());  // each feature goes to the most alike
   const int max_squared = squared_steps(settings.max_distance, codebook_step);
-  const double max_ratio_squared = std::pow(settings.max_expected_ratio, 2);
+  constexpr double kSamePlacePx = 2;
+  const auto same_place = [&](std::size_t a, std::size_t b) {
+    return std::hypot(frame.features[a].x_px - frame.features[b].x_px,
+                      frame.features[a].y_px - frame.features[b].y_px) <= kSamePlacePx;
+  };
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const PlacedLandmark& landmark = landmarks[i];
     if (!mapped_in(landmark, region, settings.along_margin_m)) continue;
     const auto expected = expected_sight(landmark, belief, camera, settings);
     if (!expected) continue;
-    int best = kFar;
-    int second = kFar;
-    std::size_t nearest = frame.features.size();
+    NearestTwo alike;
     frame.grid.visit_near(
         static_cast<float>(expected->pixel.x()), static_cast<float>(expected->pixel.y()),
         static_cast<float>(expected->radius_px), [&](std::size_t f) {
@@ -128,20 +150,11 @@ std::vector<LandmarkMatch> match_expected(const CompactFrame& frame, double code
           if (off.norm() > expected->radius_px) return;
           if (std::abs(std::log(feature.scale_px / expected->scale_px)) > settings.max_log_scale)
             return;
-          const int squared = distance_squared(frame.descriptors[f], landmark.descriptor);
-          const bool other_place = nearest == frame.features.size() ||
-                                   std::hypot(feature.x_px - frame.features[nearest].x_px,
-                                              feature.y_px - frame.features[nearest].y_px) > 2;
-          if (squared < best) {
-            if (nearest != frame.features.size() && other_place) second = best;
-            best = squared;
-            nearest = f;
-          } else if (squared < second && other_place) {
-            second = squared;
-          }
+          alike.offer(distance_squared(frame.descriptors[f], landmark.descriptor), f, same_place);
         });
-    if (best >= max_squared || best > max_ratio_squared * second) continue;
-    if (best < claims[nearest].squared) claims[nearest] = {best, i};
+    if (!alike.is_distinct(max_squared, settings.max_expected_ratio)) continue;
+    Claim& claim = claims[alike.nearest()];
+    if (alike.squared() < claim.squared) claim = {alike.squared(), i};
   }
   std::vector<LandmarkMatch> matches;
   for (std::size_t f = 0; f < claims.size(); ++f) {

@@ -1,7 +1,6 @@
 #include "client/localize/pose_consensus.h"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace milepost {
@@ -42,7 +41,7 @@ std::vector<PositionEstimate> along_by_scale(const std::vector<LandmarkMatch>& m
     const double depth_m = landmark.size_m * camera.focal_px() / features[match.feature].scale_px;
     const double middle_m = (landmark.along.from_m + landmark.along.to_m) / 2;
     const EnuPoint middle = window.enu_from_geo(line.point_at(middle_m));
-    const double heading_rad = line.heading_deg_at(middle_m) * std::numbers::pi / 180;
+    const double heading_rad = line.heading_deg_at(middle_m) * kRadPerDeg;
     const double ahead_m = (landmark.enu_m.x() - middle.east_m) * std::sin(heading_rad) +
                            (landmark.enu_m.y() - middle.north_m) * std::cos(heading_rad);
     const double sigma = std::hypot(scale_sigma, landmark.size_sigma);

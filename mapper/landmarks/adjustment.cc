@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "mapper/landmarks/triangulation.h"
+#include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kFarthestM = 300;
 
 using PoseBlock = std::array<double, 6>;  // east, north, up, heading, pitch, roll

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
+
+#include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -100,11 +99,6 @@ void LandmarkMapper::settle(std::size_t frames, std::size_t settled_after,
                      recorded.heading_rad,
                      recorded.pitch_rad,
                      recorded.roll_rad});
-  }
-  // Headings that go on over north without a jump.
-  for (std::size_t i = 1; i < frames; ++i) {
-    const double turn = poses[i].heading_rad - poses[i - 1].heading_rad;
-    poses[i].heading_rad -= 2 * std::numbers::pi * std::round(turn / (2 * std::numbers::pi));
   }
   std::vector<PixelTrack> inside;
   for (const WaitingTrack& track : tracks_) {

@@ -1,16 +1,16 @@
 #include "mapper/landmarks/selection.h"
 
 #include <cmath>
-#include <numbers>
 #include <queue>
 #include <tuple>
 
 #include <Eigen/Dense>
 
+#include "schema/geo/geodesy.h"
+
 namespace milepost {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kNearestM = 2;  // a landmark nearer than that says no more
 
 }  // namespace

@@ -1,9 +1,13 @@
 // Positions on the WGS84 ellipsoid and in local tangent frames (FRAMES.md).
 #pragma once
 
+#include <numbers>
+
 #include <GeographicLib/LocalCartesian.hpp>
 
 namespace milepost {
+
+inline constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 struct GeoPoint {
   double latitude_deg = 0;   // [-90, 90], WGS84

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "schema/geo/geodesy.h"
 #include "tests/mapper/made_up_street.h"
 
 namespace milepost {
@@ -13,8 +13,6 @@ namespace {
 using testing::kStreetPinhole;
 using testing::MadeUpStreet;
 using testing::StreetPlan;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 const StreetPlan kNoisy{.mounting_deg = 1.5,
                         .heading_noise_deg = 0.5,

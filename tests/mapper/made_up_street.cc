@@ -1,14 +1,12 @@
 #include "tests/mapper/made_up_street.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "schema/geo/geodesy.h"
 
 namespace milepost::testing {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr GeoPoint kOrigin{49, 8.4, 110};
 
 Eigen::Vector3d ahead_of(const CameraPose& pose) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "schema/geo/geodesy.h"
 
 namespace milepost::simulator {
 namespace {
@@ -12,7 +13,6 @@ constexpr double kNearM = 0.1;
 }  // namespace
 
 Projection Projection::pinhole(const Camera& camera, const Pose& pose) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180;
   const double heading = pose.heading_deg * kRadPerDeg;
   const double pitch = pose.pitch_deg * kRadPerDeg;
   const double roll = pose.roll_deg * kRadPerDeg;

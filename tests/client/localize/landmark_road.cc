@@ -6,12 +6,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "schema/geo/geodesy.h"
 #include "schema/tile/codec.h"
 
 namespace milepost::testing {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr GeoPoint kStart = {49, 8.4, 110};
 constexpr double kBendFromM = 200;
 constexpr double kBendRadiusM = 80;

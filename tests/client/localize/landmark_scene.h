@@ -7,11 +7,11 @@
 #include "client/localize/landmark_window.h"
 #include "client/localize/pose_belief.h"
 #include "client/localize/pose_solver.h"
+#include "schema/geo/geodesy.h"
 
 namespace milepost::testing {
 
 inline constexpr Pinhole kSceneCamera = {520, 500, 310, 190};
-inline constexpr double kRadPerDeg = 0.017453292519943295;
 
 inline PlacedLandmark landmark_at(const Eigen::Vector3d& enu_m, double size_m = 0.2) {
   PlacedLandmark landmark;

@@ -8,7 +8,6 @@ namespace milepost {
 namespace {
 
 using testing::angle_error_deg;
-using testing::kRadPerDeg;
 using testing::kSceneCamera;
 using testing::LandmarkScene;
 using testing::position_error_m;

@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include <Eigen/Geometry>
+
+#include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr Pinhole kCamera{400, 360, 320, 240};
 
 // A camera 1.5 m above the origin.
