@@ -14,7 +14,7 @@ struct AdjustmentSettings {
   double mounting_sigma_deg = 3;    // of the camera's yaw against the recorded headings
   double tilt_sigma_deg = 3;        // of pitch and roll, which no drive records
   double pixel_sigma_px = 0.7;      // of a feature
-  double max_first_rms_px = 8;      // tracks that fit worse at first ...
+  double max_first_rms_px = 16;     // tracks that fit worse at first ...
   double max_rms_px = 2.5;          // ... and after a first adjustment are left out
   std::size_t tracks_a_frame = 80;  // beyond so many, further tracks of a frame are left out
 };
