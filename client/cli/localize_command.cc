@@ -21,13 +21,17 @@ std::string summary_line(const std::vector<FrameFix>& fixes, const std::string& 
 int run_localize(const std::string& program, std::vector<std::string> words) {
   CLI::App app(
       "Localizes every frame of a drive and writes one fix a frame.\n\n"
-      "The start comes from the drive's gps.csv; recorded positions are not looked at.\n"
+      "The start comes from the drive's gps.csv, the motion between frames also from its "
+      "odometry.csv where\n"
+      "there is one; recorded positions are not looked at.\n"
       "Columns: timestamp_s, filename, status, segment, along_m, sigma_m, latitude_deg, "
       "longitude_deg,\n"
       "matches, latency_ms; then lateral_m (from the segment's line, positive to the right),\n"
       "heading_deg (of the camera, clockwise from north) and lateral_sigma_m, which are empty "
       "where\n"
-      "the method does not know them.\n"
+      "the method does not know them. Latitude and longitude are the camera's where lateral_m is "
+      "known,\n"
+      "else those of along_m on the segment's line.\n"
       "Example: milepost-client localize --server http://localhost:8080 --cache cache \\\n"
       "           --drive drives/tuesday --out fixes.csv",
       program);

@@ -93,6 +93,35 @@ struct Runner {
   bool had_fix = false;
 };
 
+// The receiver's and the wheels' readings of a drive, each told once its time has come.
+class SensorLog {
+ public:
+  explicit SensorLog(const Drive& drive) : drive_(drive) {}
+
+  void tell_until(double timestamp_s, std::vector<Runner>& runners) {
+    for (;
+         gps_ < drive_.gps.size() && drive_.gps[gps_].timestamp_s <= timestamp_s + kClockRoundingS;
+         ++gps_) {
+      const GpsFix& gps = drive_.gps[gps_];
+      for (Runner& runner : runners)
+        runner.localizer.observe(CoarsePosition{gps.timestamp_s, gps.position, gps.sigma_m});
+    }
+    for (; odometry_ < drive_.odometry.size() &&
+           drive_.odometry[odometry_].timestamp_s <= timestamp_s;
+         ++odometry_) {
+      const OdometryReading& wheels = drive_.odometry[odometry_];
+      for (Runner& runner : runners)
+        runner.localizer.observe(
+            Odometry{wheels.timestamp_s, wheels.speed_mps, wheels.yaw_rate_dps});
+    }
+  }
+
+ private:
+  const Drive& drive_;
+  std::size_t gps_ = 0;  // the next to tell
+  std::size_t odometry_ = 0;
+};
+
 // One frame through one localizer. A source that fails after the first fix costs this frame only.
 Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, Runner& runner,
                            Replay& replay) {
@@ -147,19 +176,13 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
   Replay replay;
   replay.fixes.resize(methods.size());
   FrameContent content;
-  std::size_t next_gps = 0;
+  SensorLog sensors(drive);
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     const Frame& frame = drive.frames[i];
     Result<cv::Mat> gray = read_frame_gray(drive, i);
     if (!gray) return gray.error();
     content.set_frame(std::move(*gray));
-    for (; next_gps < drive.gps.size() &&
-           drive.gps[next_gps].timestamp_s <= frame.timestamp_s + kClockRoundingS;
-         ++next_gps) {
-      const GpsFix& gps = drive.gps[next_gps];
-      for (Runner& runner : runners)
-        runner.localizer.observe({gps.timestamp_s, gps.position, gps.sigma_m});
-    }
+    sensors.tell_until(frame.timestamp_s, runners);
     for (std::size_t m = 0; m < methods.size(); ++m) {
       Result<FrameFix> fix = run_frame(frame, content, runners[m], replay);
       if (!fix) return fix.error();

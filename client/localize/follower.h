@@ -38,6 +38,9 @@ class Follower {
   virtual Result<int> start(const QueryFrame& frame, const Sighting& sighting) = 0;
 
   // All below REQUIRE start().
+  // Takes in what the wheels say, of now or since the last frame. Methods without a use for it, as
+  // the papers', ignore it.
+  virtual void observe(const Odometry& /*odometry*/) {}
   // Where the camera is expected at a time after the last frame's.
   virtual double expected_along_m(double timestamp_s) const = 0;
   // Follows to the next frame.

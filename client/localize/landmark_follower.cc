@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "client/localize/follower.h"
@@ -59,6 +60,12 @@ class LandmarkFollower : public Follower {
     return static_cast<int>(estimate->agreeing.size());
   }
 
+  void observe(const Odometry& odometry) override {
+    belief_ = with_wheels(expected(odometry.timestamp_s), odometry.speed_mps,
+                          odometry.yaw_rate_dps * kRadPerDeg, method_.wheels);
+    timestamp_s_ = std::max(timestamp_s_, odometry.timestamp_s);
+  }
+
   double expected_along_m(double timestamp_s) const override {
     return placed(expected(timestamp_s)).along_m;
   }
@@ -66,7 +73,7 @@ class LandmarkFollower : public Follower {
   Followed follow(const QueryFrame& frame) override {
     Followed followed;
     lay_origin_near();
-    const PoseBelief before = expected(frame.timestamp_s);
+    const PoseBelief before = tilted(expected(frame.timestamp_s), method_.motion);
     timestamp_s_ = frame.timestamp_s;
     const Placed at = placed(before);
     const double reach_m = method_.region_sigmas * at.along_sigma_m + method_.min_region_m;
@@ -95,9 +102,9 @@ class LandmarkFollower : public Follower {
 
   TrackedPosition position() const override {
     const Placed at = placed(belief_);
-    return {
-        at.along_m, at.along_sigma_m,
-        Across{at.lateral_m, at.lateral_sigma_m, wrapped_360(belief_.mean[kHeading] / kRadPerDeg)}};
+    return {at.along_m, at.along_sigma_m,
+            Across{at.lateral_m, at.lateral_sigma_m,
+                   wrapped_360(belief_.mean[kHeading] / kRadPerDeg), position_of(belief_)}};
   }
 
  private:
@@ -177,12 +184,16 @@ class LandmarkFollower : public Follower {
             ? (line_.point_at(reach.to_m).altitude_m - line_.point_at(reach.from_m).altitude_m) /
                   (reach.to_m - reach.from_m)
             : 0;
-    return predicted(belief_, timestamp_s - timestamp_s_, slope, method_.motion);
+    return predicted(belief_, std::max(0.0, timestamp_s - timestamp_s_), slope, method_.motion);
+  }
+
+  GeoPoint position_of(const PoseBelief& belief) const {
+    return window_.frame().geo_from_enu(
+        {belief.mean[kEast], belief.mean[kNorth], belief.mean[kUp]});
   }
 
   Placed placed(const PoseBelief& belief) const {
-    const GeoPoint position =
-        window_.frame().geo_from_enu({belief.mean[kEast], belief.mean[kNorth], belief.mean[kUp]});
+    const GeoPoint position = position_of(belief);
     const double reach_m =
         kProjectionReachM + geodesic_distance_m(line_.point_at(last_along_m_), position);
     const AlongRange near = {std::max(0.0, last_along_m_ - reach_m),
@@ -211,8 +222,7 @@ class LandmarkFollower : public Follower {
 
   void lay_origin_near() {
     if (belief_.mean.head<2>().norm() < kMaxOriginDistanceM) return;
-    const GeoPoint position = window_.frame().geo_from_enu(
-        {belief_.mean[kEast], belief_.mean[kNorth], belief_.mean[kUp]});
+    const GeoPoint position = position_of(belief_);
     window_.set_origin(line_.point_at(last_along_m_));
     const EnuPoint at = window_.frame().enu_from_geo(position);
     belief_.mean.head<3>() << at.east_m, at.north_m, at.up_m;
@@ -242,8 +252,8 @@ class LandmarkFollower : public Follower {
   std::function<void(const TrackletEstimate&)> on_estimate_;
   LandmarkMethod method_;
   LandmarkWindow window_;
-  PoseBelief belief_;  // in the window's frame
-  double timestamp_s_ = 0;
+  PoseBelief belief_;       // in the window's frame
+  double timestamp_s_ = 0;  // of the belief
   double last_along_m_ = 0;
 };
 

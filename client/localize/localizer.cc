@@ -10,6 +10,7 @@ namespace milepost {
 namespace {
 
 constexpr double kCoarseSpeedMps = 20;     // how fast a coarse position grows old
+constexpr double kMaxOdometryAgeS = 0.5;   // at a start
 constexpr std::size_t kMaxCandidates = 4;  // segments tried at a start
 constexpr double kEndMarginM = 3;          // the vehicle may be so far beyond a segment's ends
 
@@ -43,6 +44,7 @@ struct Localizer::Impl {
   std::unique_ptr<Prefetcher> prefetcher;  // empty if turned off
 
   std::optional<CoarsePosition> coarse;     // what a start goes by
+  std::optional<Odometry> odometry;         // the latest
   std::unique_ptr<SegmentSession> session;  // the segment the vehicle is or last was on
   std::unique_ptr<Follower> follower;       // with the session
   bool tracked = false;                     // the follower was started and not given up
@@ -79,6 +81,14 @@ Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
 void Localizer::observe(const CoarsePosition& position) { impl_->coarse = position; }
 
+void Localizer::observe(const Odometry& odometry) {
+  const bool is_sound = std::isfinite(odometry.speed_mps) && std::isfinite(odometry.yaw_rate_dps);
+  const bool ascends = !impl_->odometry || odometry.timestamp_s > impl_->odometry->timestamp_s;
+  if (!is_sound || !ascends) return;
+  impl_->odometry = odometry;
+  if (impl_->tracked) impl_->follower->observe(odometry);
+}
+
 const std::optional<Error>& Localizer::noted_error() const { return impl_->noted; }
 
 Result<Fix> Localizer::localize(const QueryFrame& frame) {
@@ -104,6 +114,7 @@ Fix Localizer::Impl::located(const QueryFrame& frame, FixStatus status, int matc
     fix.lateral_m = position.across->lateral_m;
     fix.lateral_sigma_m = position.across->lateral_sigma_m;
     fix.heading_deg = position.across->heading_deg;
+    fix.position = position.across->position;
   }
   fix.matches = matches;
   return fix;
@@ -175,6 +186,8 @@ Result<Fix> Localizer::Impl::start(const QueryFrame& frame) {
   if (!entered.ok()) return entered.error();
   const Result<int> matches = follower->start(frame, (*found)->sighting);
   if (!matches) return matches.error();
+  if (odometry && frame.timestamp_s - odometry->timestamp_s <= kMaxOdometryAgeS)
+    follower->observe(*odometry);
   tracked = true;
   frames_without_measurement = 0;
   was_tracked = true;

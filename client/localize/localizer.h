@@ -37,8 +37,9 @@ struct Fix {
   std::optional<double> lateral_m;        // from the segment's line, positive to the right
   std::optional<double> lateral_sigma_m;  // one standard deviation
   std::optional<double> heading_deg;      // of the camera, clockwise from north, [0, 360)
-  std::optional<GeoPoint> position;       // of along_m on the segment's line
-  int matches = 0;                        // features that agreed on the measurement
+  // Where the camera is: beside the line where its lateral is known, else on it, at along_m.
+  std::optional<GeoPoint> position;
+  int matches = 0;  // features that agreed on the measurement
 };
 
 // A coarse position, of a receiver of satellite signals.
@@ -46,6 +47,13 @@ struct CoarsePosition {
   double timestamp_s = 0;
   GeoPoint position;
   double sigma_m = 0;  // one standard deviation, in each direction
+};
+
+// What the wheels say of the vehicle's motion.
+struct Odometry {
+  double timestamp_s = 0;
+  double speed_mps = 0;     // forwards
+  double yaw_rate_dps = 0;  // degrees a second, clockwise
 };
 
 // One frame of the query camera. Its features are asked for once the map, and with it the
@@ -105,6 +113,11 @@ class Localizer {
 
   // What the receiver says; of several the latest counts.
   void observe(const CoarsePosition& position);
+
+  // What the wheels say, of methods that carry on by them (milepost) the motion between frames. A
+  // reading is told before the first frame that is later than it; readings ascend, and others are
+  // left out.
+  void observe(const Odometry& odometry);
 
   // The fix of the next frame. REQUIRES: timestamps ascend strictly.
   // Errors: what the map source says when there is nothing to go on with (unavailable, corrupt,

@@ -46,6 +46,7 @@ struct LandmarkMethod {
   PoseSolverSettings solver;
   ConsensusSettings consensus;
   PoseMotionSettings motion;
+  WheelSettings wheels;
   RobustSettings vote;  // over along, where a start is looked for
 
   // What is believed at the start, about the line where the votes are densest.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Dense>
+
 namespace milepost {
 
 PoseBelief predicted(const PoseBelief& belief, double elapsed_s, double slope,
@@ -45,12 +47,35 @@ PoseBelief predicted(const PoseBelief& belief, double elapsed_s, double slope,
   noise(kYawRate, kYawRate) = w * t;
   const double slip = settings.slip_sigma * settings.slip_sigma * t;
   for (const int i : {kEast, kNorth, kUp}) noise(i, i) += slip;
-  const double tilt = settings.tilt_sigma_rad * settings.tilt_sigma_rad;
-  noise(kPitch, kPitch) = noise(kRoll, kRoll) = tilt;
   noise(kMounting, kMounting) = settings.mounting_sigma * settings.mounting_sigma * t;
 
   next.covariance = by_state * belief.covariance * by_state.transpose() + noise;
   return next;
+}
+
+PoseBelief tilted(const PoseBelief& belief, const PoseMotionSettings& settings) {
+  PoseBelief next = belief;
+  for (const int i : {kPitch, kRoll})
+    next.covariance(i, i) += settings.tilt_sigma_rad * settings.tilt_sigma_rad;
+  return next;
+}
+
+PoseBelief with_wheels(const PoseBelief& belief, double speed_mps, double yaw_rate,
+                       const WheelSettings& settings) {
+  Eigen::Matrix<double, 2, kStates> observe = Eigen::Matrix<double, 2, kStates>::Zero();
+  observe(0, kSpeed) = observe(1, kYawRate) = 1;
+  const Eigen::Vector2d sigmas(
+      std::hypot(settings.speed_sigma_mps, settings.speed_scale_sigma * speed_mps),
+      settings.yaw_rate_sigma);
+  const Eigen::Matrix2d noise = sigmas.cwiseAbs2().asDiagonal();
+  const Eigen::Matrix2d innovation = observe * belief.covariance * observe.transpose() + noise;
+  const Eigen::Matrix<double, kStates, 2> gain =
+      belief.covariance * observe.transpose() * innovation.inverse();
+  const StateMatrix keep = StateMatrix::Identity() - gain * observe;
+  PoseBelief with;
+  with.mean = belief.mean + gain * (Eigen::Vector2d(speed_mps, yaw_rate) - observe * belief.mean);
+  with.covariance = keep * belief.covariance * keep.transpose() + gain * noise * gain.transpose();
+  return with;
 }
 
 }  // namespace milepost

@@ -56,8 +56,23 @@ struct PoseMotionSettings {
   double mounting_sigma = 0.001;        // rad / sqrt(s)
 };
 
+// What the wheels' word is worth. Their errors last, so these are more than their noise alone.
+struct WheelSettings {
+  double speed_sigma_mps = 0.1;     // beside ...
+  double speed_scale_sigma = 0.02;  // ... this part of the speed
+  double yaw_rate_sigma = 0.01;     // rad/s
+};
+
 // The belief `elapsed_s` later: constant speed and yaw rate. `slope` is the road's, upwards.
+// REQUIRES: elapsed_s >= 0.
 PoseBelief predicted(const PoseBelief& belief, double elapsed_s, double slope,
                      const PoseMotionSettings& settings);
+
+// The belief in the next frame, in which the camera may have tilted, whatever the time.
+PoseBelief tilted(const PoseBelief& belief, const PoseMotionSettings& settings);
+
+// The belief with what the wheels say at its time; the yaw rate clockwise, in radians a second.
+PoseBelief with_wheels(const PoseBelief& belief, double speed_mps, double yaw_rate,
+                       const WheelSettings& settings);
 
 }  // namespace milepost

@@ -8,6 +8,7 @@
 
 #include "client/localize/estimate.h"
 #include "schema/base/range.h"
+#include "schema/geo/geodesy.h"
 
 namespace milepost {
 
@@ -16,6 +17,7 @@ struct Across {
   double lateral_m = 0;  // from the segment's line, positive to the right
   double lateral_sigma_m = 0;
   double heading_deg = 0;  // of the camera, clockwise from north, [0, 360)
+  GeoPoint position;       // of the camera, beside the line
 };
 
 struct TrackedPosition {

@@ -1,6 +1,8 @@
 """The whole line: drive -> map -> server -> client over HTTP -> fixes, on the simulated street."""
 import json
 import socket
+import struct
+import zlib
 
 import commands
 from commands import CLIENT, CommandTest, STREET, Server, rows_of, run
@@ -18,6 +20,14 @@ METHODS = {"wisurf": 5.0, "scale-only": 1.5, "tracklet-matching": 1.0, "tracklet
            "tracklet-regression-kalman": 1.0, "tracklet-regression-particle": 1.0,
            "tracklet-regression-unaveraged": 1.0, "inverse-scale": 0.5, "milepost": 0.5}
 STATUSES = {"initializing", "tracking", "predicted", "lost", "off-map"}
+
+
+def black_png(width, height):
+    def chunk(kind, content):
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+    rows = bytes((1 + width) * height)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 class Line(CommandTest):
@@ -121,6 +131,23 @@ class Line(CommandTest):
             self.assertGreaterEqual(len(rows), 3)
             residuals = [float(r["offset_m"]) + float(r["slope"]) * float(r["scale_px"]) - float(r["along_m"]) for r in rows]
             self.assertAlmostEqual(sum(residuals) / len(rows), 0, delta=1e-2)  # least squares
+
+    def test_wheels_carry_on_where_frames_are_black(self):
+        self.build_map()
+        sigmas_m = []
+        for name in ("with-wheels", "without"):
+            self.query = self.copy_of(STREET / "street-query", name)
+            frames = rows_of(self.query / "trajectory.csv")
+            for row in frames[12:18]:
+                (self.query / "frames" / row["filename"]).write_bytes(black_png(600, 500))
+            if name == "without":
+                (self.query / "odometry.csv").unlink()
+            self.expect_done(self.localize("--map", self.map))
+            rows = rows_of(self.fixes)
+            self.assertEqual({row["status"] for row in rows[12:18]}, {"predicted"})
+            self.assertEqual(rows[18]["status"], "tracking")
+            sigmas_m.append(float(rows[17]["sigma_m"]))
+        self.assertLess(sigmas_m[0], 0.5 * sigmas_m[1])
 
     def check_against_rows(self, entry, rows):
         self.assertEqual(list(rows[0]), FIX_COLUMNS + ["truth_along_m", "error_m"] + POSE_COLUMNS + TRUTH_COLUMNS)

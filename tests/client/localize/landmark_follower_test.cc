@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "client/localize/localizer.h"
 #include "tests/client/localize/landmark_road.h"
@@ -72,6 +73,9 @@ class FollowingByLandmarks : public ::testing::Test {
     ASSERT_EQ(fix.status, FixStatus::tracking) << "at " << truth_.along_m;
     EXPECT_NEAR(*fix.along_m, truth_.along_m, 0.08);
     EXPECT_NEAR(*fix.lateral_m, truth_.lateral_m, 0.06) << "at " << truth_.along_m;
+    const LineProjection beside = road().line().project(*fix.position);
+    EXPECT_NEAR(beside.along_m, *fix.along_m, 0.01);
+    EXPECT_NEAR(beside.lateral_m, *fix.lateral_m, 0.01);
     EXPECT_LT(angle_between_deg(*fix.heading_deg, road().course_deg(truth_) + mounting_deg_), 0.25)
         << "at " << truth_.along_m;
     EXPECT_LT(fix.sigma_m, 0.1);
@@ -159,6 +163,38 @@ TEST_F(FollowingByLandmarks, CarriesOnThroughABlackout) {
   }
   EXPECT_LT(sigma_m, 2);
   expect_tracked_between(137, 150);
+}
+
+TEST_F(FollowingByLandmarks, WheelsSayHowFastItStarts) {
+  localizer_.observe(Odometry{99.9, 10, 0});
+  begin_at(100);
+  const Fix blind = fix(101, true);
+  EXPECT_EQ(blind.status, FixStatus::predicted);
+  EXPECT_NEAR(*blind.along_m, 101, 0.15);
+  EXPECT_LT(blind.sigma_m, 0.15);
+}
+
+// Half a second of 10 m/s, then blind at 4 m/s: what the wheels say, nothing else tells.
+TEST_F(FollowingByLandmarks, WheelsCarryItThroughABlackout) {
+  begin_at(100);
+  double along_m = 101;
+  for (; along_m < 110; along_m += kFrameM) {
+    localizer_.observe(Odometry{time_s_ - 0.02, 10, 0});
+    expect_tracked(fix(along_m));
+  }
+  along_m -= kFrameM;  // where it is
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  Fix blind;
+  for (int i = 0; i < 7; ++i) {
+    along_m += 0.4;
+    localizer_.observe(Odometry{time_s_ - 0.09, 4, 0});
+    localizer_.observe(Odometry{time_s_ - 0.1, 40, 0});  // too old to be believed
+    localizer_.observe(Odometry{time_s_ - 0.01, nothing, 0});
+    blind = fix(along_m, true);
+    EXPECT_EQ(blind.status, FixStatus::predicted);
+  }
+  EXPECT_NEAR(*blind.along_m, along_m, 3 * blind.sigma_m);
+  EXPECT_LT(blind.sigma_m, 0.15);
 }
 
 // Frames that come once in two seconds, of which three are blind: 80 m without a sight.

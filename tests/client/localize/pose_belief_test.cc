@@ -82,7 +82,7 @@ TEST(PoseBelief, PredictsWhatManyNoisyDrivesGive) {
   for (const StateVector& state : states) {
     covariance += (state - mean) * (state - mean).transpose() / kDrives;
   }
-  const PoseBelief after = predicted(before, kElapsedS, kSlope, settings);
+  const PoseBelief after = tilted(predicted(before, kElapsedS, kSlope, settings), settings);
   for (int i = 0; i < kStates; ++i) {
     const double variance_i = after.covariance(i, i);
     EXPECT_NEAR(mean[i], after.mean[i], 5 * std::sqrt(variance_i / kDrives)) << i;
@@ -139,6 +139,24 @@ TEST(PoseBelief, StandsStill) {
   EXPECT_GT(after.covariance(kEast, kEast), before.covariance(kEast, kEast));
   // A camera that stands learns nothing new of where its mounting would lead it.
   EXPECT_EQ(after.covariance(kEast, kMounting), 0);
+}
+
+TEST(PoseBelief, WheelsCountByTheirSigma) {
+  const PoseBelief before = driving_belief();  // 11 m/s, give or take 0.5
+  WheelSettings wheels;
+  wheels.speed_sigma_mps = 0.3;
+  wheels.speed_scale_sigma = 0.04;  // of 10 m/s: 0.4, so 0.5 together
+  wheels.yaw_rate_sigma = 0.1;      // as the belief's
+  const PoseBelief after = with_wheels(before, 10, 0.25, wheels);
+  EXPECT_NEAR(after.mean[kSpeed], 10.5, 1e-12);
+  EXPECT_NEAR(after.mean[kYawRate], 0.2, 1e-12);
+  EXPECT_NEAR(after.covariance(kSpeed, kSpeed), 0.5 * 0.5 / 2, 1e-12);
+  EXPECT_NEAR(after.covariance(kYawRate, kYawRate), 0.1 * 0.1 / 2, 1e-12);
+  // North goes with speed by -0.4 of the sigmas, so it is corrected with it; heading is not.
+  EXPECT_NEAR(after.mean[kNorth], before.mean[kNorth] + 0.4 * 0.15 / 0.5 * 0.5, 1e-12);
+  EXPECT_LT(after.covariance(kNorth, kNorth), before.covariance(kNorth, kNorth));
+  EXPECT_EQ(after.mean[kHeading], before.mean[kHeading]);
+  EXPECT_LT((after.covariance - after.covariance.transpose()).cwiseAbs().maxCoeff(), 1e-15);
 }
 
 TEST(PoseBelief, ClimbsWithTheRoad) {
