@@ -8,6 +8,7 @@
 #include <string>
 
 #include "schema/tile/codec.h"
+#include "tests/schema/tile/example_landmarks.h"
 #include "tests/schema/tile/example_tile.h"
 #include "tests/support/temp_folder.h"
 
@@ -34,20 +35,31 @@ Reading output_of(const std::string& command) {
   return reading;
 }
 
-TEST(ReadTile, AnIndependentReaderFindsTheSameContent) {
-  const TrackletTile tile = testing::example_tile();
+// What the independent reader prints of a stored frame.
+Reading reading_of(const Bytes& frame) {
   const testing::TempFolder folder;
-  const Bytes frame = encode_tile(tile);
   std::ofstream(folder / "tile", std::ios::binary) << as_text(frame);
-
   const std::string script = "'" MILEPOST_READ_TILE "' '" MILEPOST_GENERATED_PYTHON "' '";
-  const Reading reader =
-      output_of("'" MILEPOST_PYTHON "' -B " + script + (folder / "tile").string() + "' 2>&1");
+  return output_of("'" MILEPOST_PYTHON "' -B " + script + (folder / "tile").string() + "' 2>&1");
+}
+
+void expect_read(const Bytes& frame, const std::string& text) {
+  const Reading reader = reading_of(frame);
   if (reader.exit_code == kModuleMissing) {
     GTEST_SKIP() << "install python3-flatbuffers and python3-zstandard: " << reader.output;
   }
   EXPECT_EQ(reader.exit_code, 0);
-  EXPECT_EQ(reader.output, testing::text_of(tile));
+  EXPECT_EQ(reader.output, text);
+}
+
+TEST(ReadTile, AnIndependentReaderFindsTheSameTracklets) {
+  const TrackletTile tile = testing::example_tile();
+  expect_read(encode_tile(tile), testing::text_of(tile));
+}
+
+TEST(ReadTile, AnIndependentReaderFindsTheSameLandmarks) {
+  const LandmarkTile tile = testing::example_landmarks();
+  expect_read(encode_landmarks(tile), testing::text_of(quantized(tile)));
 }
 
 }  // namespace
