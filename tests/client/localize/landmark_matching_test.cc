@@ -58,6 +58,13 @@ Descriptor halfway() {
   return between(0, 1, part);
 }
 
+// A descriptor so far from unlike()[0].
+Descriptor at_distance(double wanted) {
+  double part = 0;
+  while (distance(between(0, 1, part), unlike()[0]) < wanted) part += 0.001;
+  return between(0, 1, part);
+}
+
 PlacedLandmark landmark(const Descriptor& descriptor, const Eigen::Vector3d& enu_m,
                         const AlongRange& along = {0, 10}) {
   PlacedLandmark landmark = testing::landmark_at(enu_m);
@@ -99,6 +106,17 @@ TEST_F(MatchAnywhere, WhatResemblesTwoPlacesIsNeither) {
   EXPECT_THAT(matches({halfway()}), IsEmpty());
   EXPECT_THAT(matches({between(0, 1, 0.1)}), ElementsAre(LandmarkMatch{0, 0}));
   EXPECT_THAT(matches({between(0, 1, 0.9)}), ElementsAre(LandmarkMatch{0, 1}));
+}
+
+TEST_F(MatchAnywhere, TheNearestMustBeNearerByTheRatio) {
+  const LandmarkMatchSettings settings;
+  const double second = 0.8 * settings.max_distance;
+  for (const double off : {-0.03, 0.03}) {
+    const double nearest = (settings.max_distance_ratio + off) * second;
+    landmarks_ = {landmark(at_distance(nearest), {0, 20, 0}),
+                  landmark(at_distance(second), {5, 20, 0})};
+    EXPECT_EQ(matches({unlike()[0]}).size(), off < 0 ? 1U : 0U) << off;
+  }
 }
 
 TEST_F(MatchAnywhere, LandmarksAtOnePlaceDoNotCountAgainstEachOther) {
@@ -227,6 +245,17 @@ TEST_F(MatchExpected, WhatMayBeEitherOfTwoFeaturesIsNeither) {
   see(between(0, 1, 0.11), 0);  // both orientations of one point
   see(between(0, 1, 0.10), 1);
   EXPECT_THAT(matches(), ElementsAre(LandmarkMatch{1, 0}));
+}
+
+TEST_F(MatchExpected, TheNearestMustBeNearerByTheRatio) {
+  know_position_to(0.2);
+  const double second = 0.8 * settings_.max_distance;
+  for (const double off : {-0.03, 0.03}) {
+    set_ = {};
+    see(at_distance((settings_.max_expected_ratio + off) * second), -5);
+    see(at_distance(second), 5);
+    EXPECT_EQ(matches().size(), off < 0 ? 1U : 0U) << off;
+  }
 }
 
 TEST_F(MatchExpected, NothingIsExpectedBehindTheCamera) {

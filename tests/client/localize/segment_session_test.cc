@@ -71,6 +71,7 @@ TEST(SegmentSession, OfLandmarksHasACodebook) {
 TEST(SegmentSession, OfOtherItemsHasNone) {
   const auto session = session_of({{"items", "tracklets"}, {"focal_px", {400, 400}}});
   ASSERT_TRUE(session.ok()) << session.error().line();
+  EXPECT_EQ(session->items, LayerItems::tracklets);
   EXPECT_FALSE(session->codebook);
 }
 
