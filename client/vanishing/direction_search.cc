@@ -45,13 +45,14 @@ double evidence(std::span<const GreatCircle> circles, const Eigen::Vector3d& dir
   return sum;
 }
 
-std::optional<Eigen::Vector3d> strongest_direction(std::span<const GreatCircle> circles,
-                                                   const Zone& zone, std::size_t pairs_of) {
+std::optional<Eigen::Vector3d> strongest_direction(
+    std::span<const GreatCircle> circles, std::size_t pairs_of,
+    const std::function<bool(const Eigen::Vector3d&)>& is_allowed) {
   std::optional<Eigen::Vector3d> strongest;
   double most = 0;
   const auto paired = circles.first(std::min(pairs_of, circles.size()));
   for (const Eigen::Vector3d& point : intersections(paired, kMinMeetingAngleRad)) {
-    if (!zone.contains(point)) continue;
+    if (!is_allowed(point)) continue;
     const double told = evidence(circles, point);
     if (told <= most) continue;
     most = told;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,10 +38,11 @@ inline constexpr double kMaxMisfitSigmas = 3;
 // fit is improbable by chance, fading out towards kMaxMisfitSigmas.
 double evidence(std::span<const GreatCircle> circles, const Eigen::Vector3d& direction);
 
-// The meeting point of two of the first `pairs_of` circles with the most evidence in the zone, or
-// none if no two meet there.
-std::optional<Eigen::Vector3d> strongest_direction(std::span<const GreatCircle> circles,
-                                                   const Zone& zone, std::size_t pairs_of);
+// The meeting point of two of the first `pairs_of` circles with the most evidence among those
+// allowed, or none if no two meet there.
+std::optional<Eigen::Vector3d> strongest_direction(
+    std::span<const GreatCircle> circles, std::size_t pairs_of,
+    const std::function<bool(const Eigen::Vector3d&)>& is_allowed);
 
 // The direction near `start` with the least robust (Geman-McClure) sum of squared misfits, found
 // by reweighted least squares; `knowledge` counts as circles without outliers.

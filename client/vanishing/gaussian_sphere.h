@@ -27,7 +27,7 @@ Eigen::Vector3d direction_of_pixel(const ViewGeometry& view, const Eigen::Vector
 
 // How far a detected line is from the edge of the world that it stands for.
 struct LineNoise {
-  double end_px = 0.7;    // of each end, across the line
+  double end_px = 0.4;    // of each end, across the line
   double bend_deg = 0.3;  // of the edge itself: walls and lenses are not quite straight
 };
 

@@ -19,11 +19,11 @@ constexpr std::size_t kClusteredLines = 90;
 constexpr double kMaxArcDistanceRad = 4 * kDegree;
 
 // Ours.
-constexpr std::size_t kVotingLines = 80;
-constexpr double kMinEvidence = 10;                // nats: about four good lines
-constexpr double kMinApartRad = 12 * kDegree;      // of two horizontal directions
-constexpr double kBandRad = 6 * kDegree;           // horizontal directions about the found horizon
-constexpr double kSquareSigmaRad = 0.5 * kDegree;  // of walls: their level edges on the vertical
+constexpr std::size_t kVotingLines = 60;
+constexpr double kMinEvidence = 20;              // nats: six to eight good lines
+constexpr double kMinApartRad = 15 * kDegree;    // of two horizontal directions
+constexpr double kBandRad = 5 * kDegree;         // horizontal directions about the found horizon
+constexpr double kSquareSigmaRad = 1 * kDegree;  // of walls: their level edges on the vertical
 constexpr int kJointRefinements = 3;
 
 using Directions = std::vector<VanishingDirection>;
@@ -104,7 +104,9 @@ bool apart_from_all(const Directions& directions, const Eigen::Vector3d& directi
 Directions by_evidence(std::span<const GreatCircle> circles, const VanishingSettings& settings) {
   Directions directions;
   const Zone pole{kCameraUp, 0, settings.max_tilt_deg * kDegree};
-  const auto vertical = strongest_direction(circles, pole, kVotingLines);
+  const auto vertical = strongest_direction(
+      circles, kVotingLines,
+      [&](const Eigen::Vector3d& direction) { return pole.contains(direction); });
   Zone horizon{kCameraUp, (90 - settings.max_tilt_deg) * kDegree, 90 * kDegree};
   if (vertical && evidence(circles, *vertical) >= kMinEvidence) {
     add(directions, refined_direction(circles, {}, *vertical), Orientation::vertical);
@@ -112,9 +114,11 @@ Directions by_evidence(std::span<const GreatCircle> circles, const VanishingSett
   }
   for (std::size_t found = 0; found < settings.max_horizontal; ++found) {
     const std::vector<GreatCircle> rest = unexplained(circles, directions);
-    const auto strongest = strongest_direction(rest, horizon, kVotingLines);
+    const auto strongest =
+        strongest_direction(rest, kVotingLines, [&](const Eigen::Vector3d& direction) {
+          return horizon.contains(direction) && apart_from_all(directions, direction);
+        });
     if (!strongest || evidence(rest, *strongest) < kMinEvidence) break;
-    if (!apart_from_all(directions, *strongest)) break;
     add(directions, *strongest, Orientation::horizontal);
     refine_together(circles, directions);
   }

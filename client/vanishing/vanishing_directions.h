@@ -25,7 +25,7 @@ enum class Orientation { vertical, horizontal };
 
 struct VanishingSettings {
   VanishingMethod method = VanishingMethod::evidence;
-  double min_length_px = 15;  // of a line segment
+  double min_length_px = 20;  // of a line segment
   double max_tilt_deg = 40;   // of the camera against the vertical, roll and pitch together
   LineNoise noise;
   std::size_t max_horizontal = 3;
