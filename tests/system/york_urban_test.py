@@ -74,7 +74,7 @@ class YorkUrban(CommandTest):
         self.assertGreater(share_within(errors, 5), 0.90)
 
     def test_clustering(self):
-        self.errors_of("clustering")
+        self.assertLess(statistics.median(self.errors_of("clustering")), 1.6)
 
 
 def share_within(errors, limit_deg):
