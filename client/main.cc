@@ -6,6 +6,8 @@ int main(int argc, char** argv) {
       "milepost-client", "Localizes a camera vehicle on mapped roads.",
       {{"localize", "a drive -> one fix a frame", milepost::run_localize},
        {"evaluate", "a drive with known positions -> how well it is localized",
-        milepost::run_evaluate}},
+        milepost::run_evaluate},
+       {"vanishing", "images -> the directions of the edges of buildings",
+        milepost::run_vanishing}},
       argc, argv);
 }

@@ -8,5 +8,6 @@ namespace milepost {
 
 int run_localize(const std::string& program, std::vector<std::string> words);
 int run_evaluate(const std::string& program, std::vector<std::string> words);
+int run_vanishing(const std::string& program, std::vector<std::string> words);
 
 }  // namespace milepost

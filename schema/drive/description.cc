@@ -98,7 +98,7 @@ class KeyReader {
   Status status_;
 };
 
-Camera read_camera(KeyReader& keys, const Json& root) {
+Camera camera_of(KeyReader& keys, const Json& root) {
   const Json& object = keys.object(root, "camera");
   Camera camera;
   camera.width_px = keys.side_px(object, "width_px");
@@ -152,7 +152,7 @@ Result<Drive> read_description(const fs::path& folder) {
   Drive drive;
   drive.folder = folder;
   drive.name = keys.text(root, "name");
-  drive.camera = read_camera(keys, root);
+  drive.camera = camera_of(keys, root);
   drive.position_frame = read_frame(keys, root);
   if (drive.position_frame == PositionFrame::local) drive.origin = read_origin(keys, root);
   drive.images = keys.text(root, "images");
@@ -165,6 +165,16 @@ Result<Drive> read_description(const fs::path& folder) {
   Status status = check_images_folder(drive.images, file.string());
   if (!status) return status.error();
   return drive;
+}
+
+Result<Camera> read_camera(const fs::path& file) {
+  const Result<Json> parsed = parse(file);
+  if (!parsed) return parsed.error();
+  KeyReader keys(file.string());
+  Camera camera = camera_of(keys, *parsed);
+  if (!keys.status()) return keys.status().error();
+  if (Status status = check_camera(camera, file.string()); !status) return status.error();
+  return camera;
 }
 
 Result<std::string> description_text(const Drive& drive) {

@@ -15,6 +15,10 @@ inline constexpr const char* kDescriptionFile = "drive.json";
 // Errors: not_found, io; invalid_input that names the place in the JSON or the key.
 Result<Drive> read_description(const std::filesystem::path& folder);
 
+// Reads and checks the camera alone of a drive.json, of any name; other keys may be missing.
+// Errors: those of read_description.
+Result<Camera> read_camera(const std::filesystem::path& file);
+
 // The text of drive.json. REQUIRES: a local drive has its origin.
 // Errors: invalid_input for a text that is not UTF-8.
 Result<std::string> description_text(const Drive& drive);

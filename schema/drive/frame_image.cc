@@ -34,33 +34,52 @@ cv::Mat decoded(const std::string& bytes) {
   }
 }
 
+// Errors say what is wrong with the image, whose name begins `what`; `where` is left to the caller.
+Result<cv::Mat> whole_image(const std::string& image) {
+  const Result<std::string> bytes = read_text_file(image);
+  if (!bytes) {
+    return Error{bytes.error().code, "", "image " + image + ": " + bytes.error().what,
+                 "restore the image"};
+  }
+  if (is_cut_short(as_bytes(*bytes))) {
+    return Error{ErrorCode::invalid_input, "", "image " + image + " is cut short",
+                 "copy the image again"};
+  }
+  cv::Mat gray = decoded(*bytes);
+  if (!gray.empty()) return gray;
+  return Error{ErrorCode::invalid_input, "", "image " + image + " cannot be decoded",
+               "replace the image"};
+}
+
+Status check_size(const cv::Mat& gray, const std::string& image, const Camera& camera) {
+  if (gray.cols == camera.width_px && gray.rows == camera.height_px) return ok_status();
+  return Error{ErrorCode::invalid_input, "",
+               "image " + image + " is " + size_text(gray.cols, gray.rows) +
+                   " pixels, the camera's images " + size_text(camera.width_px, camera.height_px),
+               "correct the camera's size in drive.json or the image"};
+}
+
 }  // namespace
+
+Result<cv::Mat> read_image_gray(const std::filesystem::path& image, const Camera& camera) {
+  Result<cv::Mat> gray = whole_image(image.string());
+  if (!gray) return gray;
+  const Status size = check_size(*gray, image.string(), camera);
+  return size ? gray : size.error();
+}
 
 Result<cv::Mat> read_frame_gray(const Drive& drive, std::size_t frame_index) {
   const std::string place = place_of(drive, frame_index);
   const std::string image = drive.frame_path(drive.frames[frame_index]).string();
-  const Result<std::string> bytes = read_text_file(image);
-  if (!bytes) {
-    return Error{bytes.error().code, place, "image " + image + ": " + bytes.error().what,
-                 "restore the image or remove the row"};
-  }
-  if (is_cut_short(as_bytes(*bytes))) {
-    return Error{ErrorCode::invalid_input, place, "image " + image + " is cut short",
-                 "copy the image again or remove the row"};
-  }
-  const cv::Mat gray = decoded(*bytes);
-  if (gray.empty()) {
-    return Error{ErrorCode::invalid_input, place, "image " + image + " cannot be decoded",
-                 "replace the image or remove the row"};
-  }
-  const Camera& camera = drive.camera;
-  if (gray.cols != camera.width_px || gray.rows != camera.height_px) {
-    return Error{ErrorCode::invalid_input, place,
-                 "image " + image + " is " + size_text(gray.cols, gray.rows) +
-                     " pixels, the camera's images " + size_text(camera.width_px, camera.height_px),
-                 "correct the camera's size in drive.json or the image"};
-  }
-  return gray;
+  const auto at_place = [&](Error error, const std::string& other_mend) {
+    error.where = place;
+    error.mend += other_mend;
+    return error;
+  };
+  Result<cv::Mat> gray = whole_image(image);
+  if (!gray) return at_place(gray.error(), " or remove the row");
+  const Status size = check_size(*gray, image, drive.camera);
+  return size ? gray : at_place(size.error(), "");
 }
 
 }  // namespace milepost

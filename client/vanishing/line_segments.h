@@ -1,0 +1,26 @@
+// Straight edges of an image (the aerial paper, section III, first step).
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+namespace milepost {
+
+// Between two points of an image in pixels, x to the right and y down, from the centre of the top
+// left pixel. The dark side may lie on either hand.
+struct LineSegment {
+  Eigen::Vector2d start_px;
+  Eigen::Vector2d end_px;
+
+  double length_px() const { return (end_px - start_px).norm(); }
+};
+
+// Segments of at least `min_length_px`, the longest first. They come from the line segment detector
+// of von Gioi et al. (IEEE TPAMI 32, 2010); the paper takes Canny edges and a progressive Hough
+// transform. The same image gives the same segments. Safe from several threads.
+// REQUIRES: `gray` is CV_8UC1 and not empty.
+std::vector<LineSegment> line_segments(const cv::Mat& gray, double min_length_px);
+
+}  // namespace milepost
