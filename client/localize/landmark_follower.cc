@@ -145,8 +145,8 @@ class LandmarkFollower : public Follower {
     PoseBelief belief;
     const EnuPoint at = window_.frame().enu_from_geo(line_.point_at(along_m));
     const double heading_rad = line_.heading_deg_at(along_m) * kRadPerDeg;
-    belief.mean << at.east_m, at.north_m, at.up_m, heading_rad, 0, 0, 0, 0, 0,
-        method_.start_speed_mps, 0, 0;
+    belief.mean.head<4>() << at.east_m, at.north_m, at.up_m, heading_rad;
+    belief.mean[kSpeed] = method_.start_speed_mps;
     const Eigen::Vector2d ahead(std::sin(heading_rad), std::cos(heading_rad));
     const Eigen::Vector2d right(ahead.y(), -ahead.x());
     const auto squared = [](double sigma) { return sigma * sigma; };
@@ -164,6 +164,8 @@ class LandmarkFollower : public Follower {
     covariance(kSpeed, kSpeed) = squared(method_.start_speed_sigma_mps);
     covariance(kYawRate, kYawRate) = squared(method_.start_yaw_rate_sigma);
     covariance(kMounting, kMounting) = squared(method_.mounting_sigma_deg * kRadPerDeg);
+    covariance(kWheelScale, kWheelScale) = squared(method_.wheel_scale_sigma);
+    covariance(kYawRateBias, kYawRateBias) = squared(method_.yaw_rate_bias_sigma);
     return belief;
   }
 

@@ -59,8 +59,10 @@ struct LandmarkMethod {
   double start_speed_sigma_mps = 10;
   double start_yaw_rate_sigma = 0.2;  // rad/s
   double mounting_sigma_deg = 2;
-  double focal_sigma = 0.005;      // of a calibration, as part of the focal length ...
-  double principal_sigma = 0.002;  // ... and of the principal point, in focal lengths
+  double wheel_scale_sigma = 0.03;
+  double yaw_rate_bias_sigma = 0.01;  // rad/s
+  double focal_sigma = 0.005;         // of a calibration, as part of the focal length ...
+  double principal_sigma = 0.002;     // ... and of the principal point, in focal lengths
 
   double min_region_m = 1;  // searched to either side, beside ...
   double region_sigmas = 3;

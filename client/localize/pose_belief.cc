@@ -62,18 +62,21 @@ PoseBelief tilted(const PoseBelief& belief, const PoseMotionSettings& settings) 
 
 PoseBelief with_wheels(const PoseBelief& belief, double speed_mps, double yaw_rate,
                        const WheelSettings& settings) {
+  const double scale = 1 + belief.mean[kWheelScale];
   Eigen::Matrix<double, 2, kStates> observe = Eigen::Matrix<double, 2, kStates>::Zero();
-  observe(0, kSpeed) = observe(1, kYawRate) = 1;
-  const Eigen::Vector2d sigmas(
-      std::hypot(settings.speed_sigma_mps, settings.speed_scale_sigma * speed_mps),
-      settings.yaw_rate_sigma);
+  observe(0, kSpeed) = scale;
+  observe(0, kWheelScale) = belief.mean[kSpeed];
+  observe(1, kYawRate) = observe(1, kYawRateBias) = 1;
+  const Eigen::Vector2d expected(scale * belief.mean[kSpeed],
+                                 belief.mean[kYawRate] + belief.mean[kYawRateBias]);
+  const Eigen::Vector2d sigmas(settings.speed_sigma_mps, settings.yaw_rate_sigma);
   const Eigen::Matrix2d noise = sigmas.cwiseAbs2().asDiagonal();
   const Eigen::Matrix2d innovation = observe * belief.covariance * observe.transpose() + noise;
   const Eigen::Matrix<double, kStates, 2> gain =
       belief.covariance * observe.transpose() * innovation.inverse();
   const StateMatrix keep = StateMatrix::Identity() - gain * observe;
   PoseBelief with;
-  with.mean = belief.mean + gain * (Eigen::Vector2d(speed_mps, yaw_rate) - observe * belief.mean);
+  with.mean = belief.mean + gain * (Eigen::Vector2d(speed_mps, yaw_rate) - expected);
   with.covariance = keep * belief.covariance * keep.transpose() + gain * noise * gain.transpose();
   return with;
 }

@@ -11,8 +11,9 @@ namespace milepost {
 
 // The state: the camera's pose in a tangent frame; how far its calibration is off, which is learned
 // on the way: the logarithm of the true focal length over the given one, and the shift of the
-// principal point in focal lengths; the vehicle's speed and yaw rate, and the yaw of the camera's
-// mounting against the direction of travel (clockwise), learned on the way, too.
+// principal point in focal lengths; the vehicle's speed and yaw rate; and, learned on the way, too:
+// the yaw of the camera's mounting against the direction of travel (clockwise), and by how much the
+// wheels tell too much, as part of the speed and as radians a second of the yaw rate.
 enum PoseState : int {
   kEast,
   kNorth,
@@ -26,6 +27,8 @@ enum PoseState : int {
   kSpeed,
   kYawRate,
   kMounting,
+  kWheelScale,
+  kYawRateBias,
   kStates
 };
 
@@ -56,11 +59,10 @@ struct PoseMotionSettings {
   double mounting_sigma = 0.001;        // rad / sqrt(s)
 };
 
-// What the wheels' word is worth. Their errors last, so these are more than their noise alone.
+// What the wheels' word is worth, beside the errors that last.
 struct WheelSettings {
-  double speed_sigma_mps = 0.1;     // beside ...
-  double speed_scale_sigma = 0.02;  // ... this part of the speed
-  double yaw_rate_sigma = 0.01;     // rad/s
+  double speed_sigma_mps = 0.1;
+  double yaw_rate_sigma = 0.01;  // rad/s
 };
 
 // The belief `elapsed_s` later: constant speed and yaw rate. `slope` is the road's, upwards.

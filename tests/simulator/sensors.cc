@@ -64,12 +64,13 @@ std::vector<OdometryReading> measure_wheels(const Motion& motion, cv::RNG& rando
   const double drift_dps = random.gaussian(kYawDriftDps);
   std::vector<OdometryReading> readings;
   for (double time_s = motion.start_s(); time_s <= motion.end_s(); time_s += kOdometerPeriodS) {
-    const double half_s = kOdometerPeriodS / 2;
-    const double turned_rad =
-        std::remainder(motion.heading_rad_at(motion.along_m_at(time_s + half_s)) -
-                           motion.heading_rad_at(motion.along_m_at(time_s - half_s)),
-                       2 * std::numbers::pi);
-    const double speed = motion.speed_mps_at(time_s) * scale + random.gaussian(kSpeedNoiseMps);
+    const double before_m = motion.along_m_at(time_s - kOdometerPeriodS / 2);
+    const double after_m = motion.along_m_at(time_s + kOdometerPeriodS / 2);
+    const double turned_rad = std::remainder(
+        motion.heading_rad_at(after_m) - motion.heading_rad_at(before_m), 2 * std::numbers::pi);
+    // Of the lane: in a bend it is longer or shorter than the route's line.
+    const double driven_m = cv::norm(motion.position_at(after_m) - motion.position_at(before_m));
+    const double speed = driven_m / kOdometerPeriodS * scale + random.gaussian(kSpeedNoiseMps);
     readings.push_back(
         {to_milliseconds(time_s), std::max(0.0, speed),
          turned_rad * kDegPerRad / kOdometerPeriodS + drift_dps + random.gaussian(kYawNoiseDps)});

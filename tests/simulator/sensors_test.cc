@@ -99,6 +99,18 @@ TEST(Wheels, SaySpeedAndTurnWithinTheirErrors) {
   EXPECT_NEAR(reading.yaw_rate_dps, expected_dps, 2.5);
 }
 
+TEST(Wheels, GoFurtherOnTheOutsideOfABend) {
+  MotionPlan plan;
+  plan.from_m = 1;
+  plan.to_m = 70;
+  plan.cruise_mps = 4;
+  const Motion outside(Path::circle({0, 0}, 12), 3, plan);  // counter-clockwise, 3 m to the right
+  cv::RNG random(5);
+  const auto readings = measure_wheels(outside, random);
+  const OdometryReading& reading = readings[readings.size() / 2];
+  EXPECT_NEAR(reading.speed_mps / outside.speed_mps_at(reading.timestamp_s), 15.0 / 12, 0.08);
+}
+
 TEST(Camera, ExposesDarkPicturesLonger) {
   cv::RNG random(1);
   const cv::Mat dark(40, 40, CV_8UC3, cv::Scalar::all(70));

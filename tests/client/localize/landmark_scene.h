@@ -72,7 +72,7 @@ struct LandmarkScene {
     StateVector sigmas;
     const double sigma_rad = sigma_deg * kRadPerDeg;
     sigmas << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad, 1e-3, 1e-3, 1e-3, 1, 0.1,
-        0.03;
+        0.03, 0.01, 0.01;
     return {mean, sigmas.cwiseAbs2().asDiagonal()};
   }
 };

@@ -12,9 +12,9 @@ namespace {
 
 PoseBelief driving_belief() {
   PoseBelief belief;
-  belief.mean << 30, -20, 2, 0.7, 0.02, -0.01, 0.03, 0.01, -0.02, 11, 0.15, 0.04;
+  belief.mean << 30, -20, 2, 0.7, 0.02, -0.01, 0.03, 0.01, -0.02, 11, 0.15, 0.04, 0.02, -0.005;
   StateVector sigmas;
-  sigmas << 0.1, 0.15, 0.2, 0.02, 0.01, 0.015, 0.01, 0.004, 0.004, 0.5, 0.1, 0.01;
+  sigmas << 0.1, 0.15, 0.2, 0.02, 0.01, 0.015, 0.01, 0.004, 0.004, 0.5, 0.1, 0.01, 0.02, 0.01;
   belief.covariance = sigmas.cwiseAbs2().asDiagonal();
   belief.covariance(kEast, kHeading) = belief.covariance(kHeading, kEast) = 0.5 * 0.1 * 0.02;
   belief.covariance(kSpeed, kNorth) = belief.covariance(kNorth, kSpeed) = -0.4 * 0.5 * 0.15;
@@ -142,11 +142,12 @@ TEST(PoseBelief, StandsStill) {
 }
 
 TEST(PoseBelief, WheelsCountByTheirSigma) {
-  const PoseBelief before = driving_belief();  // 11 m/s, give or take 0.5
+  PoseBelief before = driving_belief();  // 11 m/s, give or take 0.5
+  before.mean[kWheelScale] = before.mean[kYawRateBias] = 0;
+  before.covariance(kWheelScale, kWheelScale) = before.covariance(kYawRateBias, kYawRateBias) = 0;
   WheelSettings wheels;
-  wheels.speed_sigma_mps = 0.3;
-  wheels.speed_scale_sigma = 0.04;  // of 10 m/s: 0.4, so 0.5 together
-  wheels.yaw_rate_sigma = 0.1;      // as the belief's
+  wheels.speed_sigma_mps = 0.5;
+  wheels.yaw_rate_sigma = 0.1;  // as the belief's
   const PoseBelief after = with_wheels(before, 10, 0.25, wheels);
   EXPECT_NEAR(after.mean[kSpeed], 10.5, 1e-12);
   EXPECT_NEAR(after.mean[kYawRate], 0.2, 1e-12);
@@ -157,6 +158,27 @@ TEST(PoseBelief, WheelsCountByTheirSigma) {
   EXPECT_LT(after.covariance(kNorth, kNorth), before.covariance(kNorth, kNorth));
   EXPECT_EQ(after.mean[kHeading], before.mean[kHeading]);
   EXPECT_LT((after.covariance - after.covariance.transpose()).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(PoseBelief, LearnsWhatTheWheelsGetWrong) {
+  PoseBelief belief = driving_belief();
+  belief.mean[kWheelScale] = belief.mean[kYawRateBias] = 0;
+  const auto know = [&](PoseState state, double value, double sigma) {
+    belief.mean[state] = value;
+    belief.covariance.row(state).setZero();
+    belief.covariance.col(state).setZero();
+    belief.covariance(state, state) = sigma * sigma;
+  };
+  for (int i = 0; i < 200; ++i) {
+    know(kSpeed, 10, 0.01);  // as many landmarks say
+    know(kYawRate, 0.1, 0.001);
+    belief = with_wheels(belief, 10.2, 0.092, {});
+  }
+  EXPECT_NEAR(belief.mean[kWheelScale], 0.02, 0.001);
+  EXPECT_NEAR(belief.mean[kYawRateBias], -0.008, 0.001);
+  EXPECT_LT(std::sqrt(belief.covariance(kWheelScale, kWheelScale)), 0.002);
+  know(kSpeed, 10, 5);  // and then nothing but the wheels do
+  EXPECT_NEAR(with_wheels(belief, 5.1, 0.1, {}).mean[kSpeed], 5, 0.02);
 }
 
 TEST(PoseBelief, ClimbsWithTheRoad) {
