@@ -48,9 +48,9 @@ struct Scene {
   std::vector<LineSegment> segments;  // the longest first
   std::vector<int> classes;           // index into directions, -1 for an outlier
 
-  Scene(std::vector<Eigen::Vector3d> edges, const Eigen::Matrix3d& turned, double noise_px,
-        int lines_each, int outliers)
-      : directions(std::move(edges)), camera_from_level(turned) {
+  Scene(std::vector<Eigen::Vector3d> edges, Eigen::Matrix3d turned, double noise_px, int lines_each,
+        int outliers)
+      : directions(std::move(edges)), camera_from_level(std::move(turned)) {
     std::mt19937 random(7);
     std::normal_distribution<double> noise(0, noise_px);
     std::uniform_real_distribution<double> unit(-1, 1);
