@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 const std::map<std::string, VanishingMethod> kMethods = {
     {"clustering", VanishingMethod::clustering}, {"evidence", VanishingMethod::evidence}};
 
-ViewGeometry view_of(const Camera& camera) {
+Pinhole view_of(const Camera& camera) {
   return {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px, camera.principal_y_px};
 }
 

@@ -6,11 +6,13 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "schema/geo/geodesy.h"
+
 namespace milepost {
 namespace {
 
 constexpr int kRefinements = 15;
-constexpr double kMinMeetingAngleRad = 0.5 * std::numbers::pi / 180;
+constexpr double kMinMeetingAngleRad = 0.5 * kRadPerDeg;
 
 // How much a circle tells that fits: minus the logarithm of the share of all turns about its middle
 // that would have fitted as well.

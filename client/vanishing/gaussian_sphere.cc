@@ -6,9 +6,11 @@
 
 #include <Eigen/Geometry>
 
+#include "schema/geo/geodesy.h"
+
 namespace milepost {
 
-Eigen::Vector3d direction_of_pixel(const ViewGeometry& view, const Eigen::Vector2d& pixel) {
+Eigen::Vector3d direction_of_pixel(const Pinhole& view, const Eigen::Vector2d& pixel) {
   return Eigen::Vector3d((pixel.x() - view.principal_x_px) / view.focal_x_px,
                          (pixel.y() - view.principal_y_px) / view.focal_y_px, 1)
       .normalized();
@@ -22,8 +24,7 @@ double GreatCircle::sigma_rad(const Eigen::Vector3d& direction) const {
   return std::hypot(turn_sigma_rad * along.dot(direction), shift_sigma_rad * middle.dot(direction));
 }
 
-GreatCircle great_circle(const ViewGeometry& view, const LineSegment& segment,
-                         const LineNoise& noise) {
+GreatCircle great_circle(const Pinhole& view, const LineSegment& segment, const LineNoise& noise) {
   const Eigen::Vector3d start = direction_of_pixel(view, segment.start_px);
   const Eigen::Vector3d end = direction_of_pixel(view, segment.end_px);
   GreatCircle circle;
@@ -34,8 +35,8 @@ GreatCircle great_circle(const ViewGeometry& view, const LineSegment& segment,
   // Of two ends with independent noise the mean moves by end / sqrt 2 and the slope by sqrt 2 end.
   const double length_rad = 2 * std::asin(std::min(1.0, (end - start).norm() / 2));
   const double end_rad = noise.end_px * length_rad / segment.length_px();
-  circle.turn_sigma_rad = std::hypot(std::numbers::sqrt2 * end_rad / length_rad,
-                                     noise.bend_deg * std::numbers::pi / 180);
+  circle.turn_sigma_rad =
+      std::hypot(std::numbers::sqrt2 * end_rad / length_rad, noise.bend_deg * kRadPerDeg);
   circle.shift_sigma_rad = end_rad / std::numbers::sqrt2;
   return circle;
 }

@@ -13,17 +13,12 @@
 #include <Eigen/Core>
 
 #include "client/vanishing/line_segments.h"
+#include "schema/geo/camera_pose.h"
 
 namespace milepost {
 
-struct ViewGeometry {
-  double focal_x_px = 0;      // > 0
-  double focal_y_px = 0;      // > 0
-  double principal_x_px = 0;  // from the centre of the top left pixel
-  double principal_y_px = 0;
-};
-
-Eigen::Vector3d direction_of_pixel(const ViewGeometry& view, const Eigen::Vector2d& pixel);
+// Pixels count from the centre of the top left one. REQUIRES: focal lengths above 0.
+Eigen::Vector3d direction_of_pixel(const Pinhole& view, const Eigen::Vector2d& pixel);
 
 // How far a detected line is from the edge of the world that it stands for.
 struct LineNoise {
@@ -48,8 +43,7 @@ struct GreatCircle {
 };
 
 // REQUIRES: the segment's ends differ.
-GreatCircle great_circle(const ViewGeometry& view, const LineSegment& segment,
-                         const LineNoise& noise);
+GreatCircle great_circle(const Pinhole& view, const LineSegment& segment, const LineNoise& noise);
 
 // Where the circles meet, pair by pair, one of the two opposite points each: the one with y < 0,
 // above the camera. Pairs that all but coincide, within `min_angle_rad`, are left out.

@@ -3,27 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "client/vanishing/direction_search.h"
 #include "client/vanishing/subtractive_clustering.h"
+#include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 const Eigen::Vector3d kCameraUp(0, -1, 0);
 
 // The paper's way. Pairs of more lines than these make clustering slow and hardly better.
 constexpr std::size_t kClusteredLines = 90;
-constexpr double kMaxArcDistanceRad = 4 * kDegree;
+constexpr double kMaxArcDistanceRad = 4 * kRadPerDeg;
 
 // Ours.
 constexpr std::size_t kVotingLines = 60;
-constexpr double kMinEvidence = 20;              // nats: six to eight good lines
-constexpr double kMinApartRad = 15 * kDegree;    // of two horizontal directions
-constexpr double kBandRad = 5 * kDegree;         // horizontal directions about the found horizon
-constexpr double kSquareSigmaRad = 1 * kDegree;  // of walls: their level edges on the vertical
+constexpr double kMinEvidence = 20;                 // nats: six to eight good lines
+constexpr double kMinApartRad = 15 * kRadPerDeg;    // of two horizontal directions
+constexpr double kBandRad = 5 * kRadPerDeg;         // horizontal directions about the found horizon
+constexpr double kSquareSigmaRad = 1 * kRadPerDeg;  // of walls: their level edges on the vertical
 constexpr int kJointRefinements = 3;
 
 using Directions = std::vector<VanishingDirection>;
@@ -38,12 +37,12 @@ void add(Directions& directions, const Eigen::Vector3d& direction, Orientation o
 }
 
 Directions by_clustering(std::span<const GreatCircle> circles, const VanishingSettings& settings) {
-  const Zone pole{kCameraUp, 0, settings.max_tilt_deg * kDegree};
-  const Zone equator{kCameraUp, (90 - settings.max_tilt_deg) * kDegree, 90 * kDegree};
+  const Zone pole{kCameraUp, 0, settings.max_tilt_deg * kRadPerDeg};
+  const Zone equator{kCameraUp, (90 - settings.max_tilt_deg) * kRadPerDeg, 90 * kRadPerDeg};
   std::vector<Eigen::Vector3d> polar;
   std::vector<Eigen::Vector3d> equatorial;
   const auto longest = circles.first(std::min(kClusteredLines, circles.size()));
-  for (const Eigen::Vector3d& point : intersections(longest, 0.5 * kDegree)) {
+  for (const Eigen::Vector3d& point : intersections(longest, 0.5 * kRadPerDeg)) {
     if (pole.contains(point)) polar.push_back(point);
     if (equator.contains(point)) equatorial.push_back(point);
   }
@@ -103,14 +102,14 @@ bool apart_from_all(const Directions& directions, const Eigen::Vector3d& directi
 
 Directions by_evidence(std::span<const GreatCircle> circles, const VanishingSettings& settings) {
   Directions directions;
-  const Zone pole{kCameraUp, 0, settings.max_tilt_deg * kDegree};
+  const Zone pole{kCameraUp, 0, settings.max_tilt_deg * kRadPerDeg};
   const auto vertical = strongest_direction(
       circles, kVotingLines,
       [&](const Eigen::Vector3d& direction) { return pole.contains(direction); });
-  Zone horizon{kCameraUp, (90 - settings.max_tilt_deg) * kDegree, 90 * kDegree};
+  Zone horizon{kCameraUp, (90 - settings.max_tilt_deg) * kRadPerDeg, 90 * kRadPerDeg};
   if (vertical && evidence(circles, *vertical) >= kMinEvidence) {
     add(directions, refined_direction(circles, {}, *vertical), Orientation::vertical);
-    horizon = {directions.front().direction, 90 * kDegree - kBandRad, 90 * kDegree};
+    horizon = {directions.front().direction, 90 * kRadPerDeg - kBandRad, 90 * kRadPerDeg};
   }
   for (std::size_t found = 0; found < settings.max_horizontal; ++found) {
     const std::vector<GreatCircle> rest = unexplained(circles, directions);
@@ -148,8 +147,7 @@ std::optional<std::size_t> class_of(const GreatCircle& circle, const Directions&
 
 }  // namespace
 
-VanishingDirections vanishing_directions(std::span<const LineSegment> segments,
-                                         const ViewGeometry& view,
+VanishingDirections vanishing_directions(std::span<const LineSegment> segments, const Pinhole& view,
                                          const VanishingSettings& settings) {
   std::vector<GreatCircle> circles;
   for (const LineSegment& segment : segments) {
@@ -167,7 +165,7 @@ VanishingDirections vanishing_directions(std::span<const LineSegment> segments,
   return found;
 }
 
-VanishingDirections vanishing_directions(const cv::Mat& gray, const ViewGeometry& view,
+VanishingDirections vanishing_directions(const cv::Mat& gray, const Pinhole& view,
                                          const VanishingSettings& settings) {
   return vanishing_directions(line_segments(gray, settings.min_length_px), view, settings);
 }

@@ -47,13 +47,12 @@ struct VanishingDirections {
 };
 
 // REQUIRES: segments as line_segments() returns them, of pixels of the view.
-VanishingDirections vanishing_directions(std::span<const LineSegment> segments,
-                                         const ViewGeometry& view,
+VanishingDirections vanishing_directions(std::span<const LineSegment> segments, const Pinhole& view,
                                          const VanishingSettings& settings = {});
 
 // The same image and settings give the same answer, to the bit. Safe from several threads.
 // REQUIRES: `gray` is CV_8UC1 and not empty.
-VanishingDirections vanishing_directions(const cv::Mat& gray, const ViewGeometry& view,
+VanishingDirections vanishing_directions(const cv::Mat& gray, const Pinhole& view,
                                          const VanishingSettings& settings = {});
 
 }  // namespace milepost

@@ -9,7 +9,7 @@
 namespace milepost {
 namespace {
 
-const ViewGeometry kView{500, 400, 320, 240};
+const Pinhole kView{500, 400, 320, 240};
 
 TEST(GaussianSphere, APixelsDirectionIsUnitXRightYDown) {
   const Eigen::Vector3d corner = direction_of_pixel(kView, {820, 640});
@@ -26,7 +26,7 @@ TEST(GaussianSphere, ACircleHoldsTheSegmentsEnds) {
 
 // Against many segments whose ends were moved.
 TEST(GaussianSphere, SigmaIsTheSpreadThatMovedEndsMake) {
-  const ViewGeometry view{500, 500, 320, 240};
+  const Pinhole view{500, 500, 320, 240};
   const Eigen::Vector2d start(300, 200);
   const Eigen::Vector2d end(360, 200);
   const GreatCircle circle = great_circle(view, {start, end}, {0.5, 0});

@@ -4,20 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
+#include "schema/geo/geodesy.h"
+
 namespace milepost {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-const ViewGeometry kView{600, 600, 320, 240};
+const Pinhole kView{600, 600, 320, 240};
 
 Eigen::Matrix3d turn(double deg, const Eigen::Vector3d& axis) {
-  return Eigen::AngleAxisd(deg * kDegree, axis).toRotationMatrix();
+  return Eigen::AngleAxisd(deg * kRadPerDeg, axis).toRotationMatrix();
 }
 
 Eigen::Vector2d pixel_of(const Eigen::Vector3d& point) {
@@ -26,7 +26,7 @@ Eigen::Vector2d pixel_of(const Eigen::Vector3d& point) {
 }
 
 double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::acos(std::min(1.0, std::abs(a.dot(b)))) / kDegree;
+  return std::acos(std::min(1.0, std::abs(a.dot(b)))) / kRadPerDeg;
 }
 
 double nearest_deg(const VanishingDirections& found, const Eigen::Vector3d& direction,
@@ -82,7 +82,7 @@ struct Scene {
 };
 
 Eigen::Vector3d level_direction(double azimuth_deg) {
-  return {std::sin(azimuth_deg * kDegree), 0, std::cos(azimuth_deg * kDegree)};
+  return {std::sin(azimuth_deg * kRadPerDeg), 0, std::cos(azimuth_deg * kRadPerDeg)};
 }
 
 TEST(VanishingDirections, BoxesSeenByATurnedCameraGiveTheirDirections) {
