@@ -1,7 +1,7 @@
 -- The tables of a map file (FORMAT.md 2). The library runs this very text to make one.
 
 PRAGMA application_id = 1297108273;  -- 0x4D504D31, "MPM1"
-PRAGMA user_version = 1;             -- of the format
+PRAGMA user_version = 2;             -- of the format
 
 -- build, feature, west_deg, south_deg, east_deg, north_deg
 CREATE TABLE meta (
@@ -65,4 +65,15 @@ CREATE TABLE spans (
   layer     TEXT NOT NULL REFERENCES layers (name),
   longest_m REAL NOT NULL,  -- largest to_m - from_m
   PRIMARY KEY (segment, layer)
+) STRICT, WITHOUT ROWID;
+
+-- The index of the cells: tiles of an area, by the grid of FORMAT.md 6.1.
+CREATE TABLE cells (
+  layer  TEXT NOT NULL REFERENCES layers (name),
+  number INTEGER NOT NULL CHECK (number BETWEEN 0 AND 2591999999),  -- the cell's
+  items  INTEGER NOT NULL CHECK (items >= 0),
+  bytes  INTEGER NOT NULL CHECK (bytes >= 0),  -- length of the frame
+  digest TEXT NOT NULL,                        -- of the frame
+  frame  INTEGER NOT NULL UNIQUE REFERENCES frames (id),
+  PRIMARY KEY (layer, number)
 ) STRICT, WITHOUT ROWID;

@@ -1,5 +1,7 @@
 #include "schema/store/map_content.h"
 
+#include <optional>
+
 #include "schema/base/digest.h"
 
 namespace milepost {
@@ -25,6 +27,8 @@ constexpr List kLists[] = {
      "SELECT segment, layer, number, from_m, to_m, items, bytes, digest FROM tiles "
      "ORDER BY segment, layer, number",
      "ttirriit"},
+    {"SELECT count(*) FROM cells",
+     "SELECT layer, number, items, bytes, digest FROM cells ORDER BY layer, number", "tiiit"},
 };
 
 void add_row(FieldDigest& digest, const sqlite::Statement& row, const char* columns) {
@@ -77,16 +81,20 @@ Result<std::string> build_of(const sqlite::Database& map) {
 }
 
 Result<Bounds> bounds_of(const sqlite::Database& map) {
-  Bounds bounds;
-  const Status status = for_each_row(
-      map,
-      "SELECT min(longitude_deg), min(latitude_deg), max(longitude_deg), max(latitude_deg) "
-      "FROM vertices",
-      [&](const sqlite::Statement& row) {
-        bounds = {row.real(0), row.real(1), row.real(2), row.real(3)};
-      });
+  std::optional<Bounds> bounds;
+  const auto add = [&bounds](const Bounds& box) { bounds = bounds ? bounds->joined(box) : box; };
+  Status status = for_each_row(map,
+                               "SELECT min(longitude_deg), min(latitude_deg), max(longitude_deg), "
+                               "max(latitude_deg) FROM vertices HAVING count(*) > 0",
+                               [&](const sqlite::Statement& row) {
+                                 add({row.real(0), row.real(1), row.real(2), row.real(3)});
+                               });
   if (!status.ok()) return status.error();
-  return bounds;
+  status = for_each_row(map, "SELECT number FROM cells", [&](const sqlite::Statement& row) {
+    add(GridCell::numbered(static_cast<std::uint32_t>(row.integer(0))).bounds());
+  });
+  if (!status.ok()) return status.error();
+  return bounds.value_or(Bounds{});
 }
 
 }  // namespace milepost

@@ -11,12 +11,12 @@ namespace milepost {
 
 // PRAGMA application_id and user_version of map.sql.
 inline constexpr std::int64_t kMapApplicationId = 0x4D504D31;  // "MPM1"
-inline constexpr std::int64_t kMapFormatVersion = 1;
+inline constexpr std::int64_t kMapFormatVersion = 2;
 
 // The digest of everything that readers of the map are told (FORMAT.md 2.7).
 Result<std::string> build_of(const sqlite::Database& map);
 
-// The smallest box around all vertices; zeros without vertices.
+// The smallest box around all vertices and cells; zeros without either.
 Result<Bounds> bounds_of(const sqlite::Database& map);
 
 }  // namespace milepost

@@ -14,7 +14,18 @@ namespace {
 // A map comes from elsewhere: nothing in its schema may run code, and damaged cells are refused.
 constexpr const char* kSettings = "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
 
-enum Query { kMeta, kSegment, kVertices, kSuccessors, kTileIndex, kTilesIn, kTile, kFrame };
+enum Query {
+  kMeta,
+  kSegment,
+  kVertices,
+  kSuccessors,
+  kTileIndex,
+  kTilesIn,
+  kTile,
+  kFrame,
+  kCells,
+  kCell
+};
 constexpr const char* kQueries[] = {
     "SELECT value FROM meta WHERE key = ?",
     "SELECT length_m FROM segments WHERE id = ?",
@@ -29,6 +40,9 @@ constexpr const char* kQueries[] = {
     "(SELECT longest_m FROM spans WHERE segment = ?1 AND layer = ?2) ORDER BY number",
     "SELECT digest, frame FROM tiles WHERE segment = ? AND layer = ? AND number = ?",
     "SELECT frame FROM frames WHERE id = ?",
+    "SELECT number, items, bytes, digest FROM cells WHERE layer = ? AND number BETWEEN ? AND ? "
+    "ORDER BY number",
+    "SELECT digest, frame FROM cells WHERE layer = ? AND number = ?",
 };
 
 // Every tile with its bytes. A tile whose bytes are missing comes with a NULL frame.
@@ -36,12 +50,19 @@ constexpr const char* kEveryFrame =
     "SELECT tiles.segment, tiles.layer, tiles.number, tiles.bytes, tiles.digest, frames.frame "
     "FROM tiles LEFT JOIN frames ON frames.id = tiles.frame "
     "ORDER BY tiles.segment, tiles.layer, tiles.number";
+constexpr const char* kEveryCell =
+    "SELECT cells.layer, cells.number, cells.bytes, cells.digest, frames.frame "
+    "FROM cells LEFT JOIN frames ON frames.id = cells.frame ORDER BY cells.layer, cells.number";
 constexpr const char* kWrongSpans =
     "SELECT segment, layer FROM tiles LEFT JOIN spans USING (segment, layer) "
     "WHERE longest_m IS NULL OR to_m - from_m > longest_m LIMIT 1";
 
 std::string tile_name(const std::string& segment, const std::string& layer, std::int64_t index) {
   return "segment " + segment + ", layer " + layer + ", tile " + std::to_string(index);
+}
+
+std::string cell_name(const std::string& layer, std::int64_t number) {
+  return "layer " + layer + ", cell " + std::to_string(number);
 }
 
 Error corrupt(const std::string& where, const std::string& what) {
@@ -92,6 +113,15 @@ TileEntry entry_at(const Rows& row) {
           static_cast<std::uint64_t>(row->integer(3)),
           static_cast<std::uint64_t>(row->integer(4)),
           row->text(5)};
+}
+
+CellEntry cell_entry_at(const Rows& row) {
+  return {static_cast<std::uint32_t>(row->integer(0)), static_cast<std::uint64_t>(row->integer(1)),
+          static_cast<std::uint64_t>(row->integer(2)), row->text(3)};
+}
+
+bool is_sound_cell(const Rows& row) {
+  return row->integer(1) >= 0 && row->integer(2) >= 0 && is_digest(row->text(3));
 }
 
 bool is_sound(const Rows& row) {
@@ -184,10 +214,32 @@ struct MapReader::Impl {
     return {ErrorCode::not_found, place(), "the map has no segment " + id, ""};
   }
 
-  Status require(const std::string& segment, const std::string& layer) const {
-    if (!std::ranges::binary_search(segment_ids, segment)) return no_segment(segment);
+  Status require_layer(const std::string& layer) const {
     if (layers.contains(layer)) return ok_status();
     return Error{ErrorCode::not_found, place(), "the map has no layer " + layer, ""};
+  }
+
+  Status require(const std::string& segment, const std::string& layer) const {
+    if (!std::ranges::binary_search(segment_ids, segment)) return no_segment(segment);
+    return require_layer(layer);
+  }
+
+  // The cells numbered `first` to `last` that meet the box.
+  Result<std::vector<CellEntry>> cells(const std::string& layer, std::uint32_t first,
+                                       std::uint32_t last, const Bounds& box) {
+    Rows row(query(kCells).bind(1, layer).bind(2, std::int64_t{first}).bind(3, std::int64_t{last}));
+    std::vector<CellEntry> entries;
+    while (true) {
+      const Result<bool> more = row.next();
+      if (!more) return more.error();
+      if (!*more) return entries;
+      if (!is_sound_cell(row)) {
+        return corrupt(place() + ", " + cell_name(layer, row->integer(0)),
+                       "the entry in the index of cells is damaged");
+      }
+      const CellEntry entry = cell_entry_at(row);
+      if (GridCell::numbered(entry.cell).bounds().meets(box)) entries.push_back(entry);
+    }
   }
 
   Result<std::vector<TileEntry>> entries(Query kind, const std::string& segment,
@@ -242,15 +294,24 @@ struct MapReader::Impl {
     });
   }
 
+  // Whether the bytes in a row are whole. From the column `bytes` on it has the length, the digest
+  // and the frame.
+  Status check_frame(const Rows& row, int bytes, const std::string& name) const {
+    const ByteView frame = row->blob(bytes + 2);
+    if (static_cast<std::int64_t>(frame.size()) == row->integer(bytes) &&
+        digest_of(frame) == row->text(bytes + 1)) {
+      return ok_status();
+    }
+    return corrupt(place() + ", " + name, "the tile's bytes break its digest");
+  }
+
   Status check_frames() const {
-    return for_each_row(kEveryFrame, [&](const Rows& row) {
-      const ByteView frame = row->blob(5);
-      if (static_cast<std::int64_t>(frame.size()) == row->integer(3) &&
-          digest_of(frame) == row->text(4)) {
-        return ok_status();
-      }
-      return Status(corrupt(place() + ", " + tile_name(row->text(0), row->text(1), row->integer(2)),
-                            "the tile's bytes break its digest"));
+    const Status tiles = for_each_row(kEveryFrame, [&](const Rows& row) {
+      return check_frame(row, 3, tile_name(row->text(0), row->text(1), row->integer(2)));
+    });
+    if (!tiles.ok()) return tiles;
+    return for_each_row(kEveryCell, [&](const Rows& row) {
+      return check_frame(row, 2, cell_name(row->text(0), row->integer(1)));
     });
   }
 
@@ -272,7 +333,7 @@ struct MapReader::Impl {
     const bool same = box->west_deg == bounds.west_deg && box->south_deg == bounds.south_deg &&
                       box->east_deg == bounds.east_deg && box->north_deg == bounds.north_deg;
     return same ? ok_status()
-                : Status(corrupt(place(), "the bounds are not those of the vertices"));
+                : Status(corrupt(place(), "the bounds are not those of the vertices and cells"));
   }
 };
 
@@ -346,6 +407,34 @@ Result<Bytes> MapReader::tile(const std::string& segment, const std::string& lay
   if (!found) return found.error();
   if (!*found) {
     return Error{ErrorCode::not_found, impl_->place(), "the map has no tile at " + name, ""};
+  }
+  return impl_->frame(row->integer(1), row->text(0), impl_->place() + ", " + name);
+}
+
+Result<std::vector<CellEntry>> MapReader::cell_index(const std::string& layer) const {
+  return cells_in(layer, {-180, -90, 180, 90});
+}
+
+Result<std::vector<CellEntry>> MapReader::cells_in(const std::string& layer,
+                                                   const Bounds& box) const {
+  const Status there = impl_->require_layer(layer);
+  if (!there.ok()) return there.error();
+  // A box also meets the cells that it only touches: one row more to the south.
+  const std::uint32_t south_row = GridCell::at(std::clamp(box.south_deg, -90.0, 90.0), -180).row;
+  const GridCell first{south_row > 0 ? south_row - 1 : 0, 0};
+  const GridCell last = GridCell::at(std::clamp(box.north_deg, -90.0, 90.0), 180);
+  return impl_->cells(layer, first.number(), last.number(), box);
+}
+
+Result<Bytes> MapReader::cell(const std::string& layer, std::uint32_t number) const {
+  const Status there = impl_->require_layer(layer);
+  if (!there.ok()) return there.error();
+  const std::string name = cell_name(layer, number);
+  Rows row(impl_->query(kCell).bind(1, layer).bind(2, std::int64_t{number}));
+  const Result<bool> found = row.next();
+  if (!found) return found.error();
+  if (!*found) {
+    return Error{ErrorCode::not_found, impl_->place(), "the map has no " + name, ""};
   }
   return impl_->frame(row->integer(1), row->text(0), impl_->place() + ", " + name);
 }

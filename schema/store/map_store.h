@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "schema/base/bytes.h"
+#include "schema/base/cell_grid.h"
 #include "schema/base/ids.h"
 #include "schema/base/range.h"
 #include "schema/base/result.h"
@@ -44,8 +45,16 @@ struct TileEntry {
   }
 };
 
-struct Bounds {
-  double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
+// One row of the index of cells.
+struct CellEntry {
+  std::uint32_t cell = 0;  // is_cell
+  std::uint64_t items = 0;
+  std::uint64_t bytes = 0;
+  std::string digest;  // of the stored frame
+
+  friend bool operator==(const CellEntry& a, const CellEntry& b) {
+    return a.cell == b.cell && a.digest == b.digest;
+  }
 };
 
 // Reads one map. Opens the file read only and never changes it; a map file is replaced by renaming,
@@ -79,8 +88,14 @@ class MapReader {
   // The stored frame of one tile, as it lies in the file.
   Result<Bytes> tile(const std::string& segment, const std::string& layer,
                      std::uint32_t index) const;
-  // Reads every byte: SQLite's integrity check, every tile's digest, the build. Errors: corrupt,
-  // io.
+  // The index of every cell of the layer, ascending; empty for a layer of segments.
+  Result<std::vector<CellEntry>> cell_index(const std::string& layer) const;
+  // The cells of the index that meet the box, ascending.
+  Result<std::vector<CellEntry>> cells_in(const std::string& layer, const Bounds& box) const;
+  // The stored frame of one cell, as it lies in the file.
+  Result<Bytes> cell(const std::string& layer, std::uint32_t number) const;
+  // Reads every byte: SQLite's integrity check, every tile's and cell's digest, the build. Errors:
+  // corrupt, io.
   Status verify() const;
 
  private:
@@ -109,6 +124,9 @@ class MapWriter {
   // REQUIRES: the segment and the layer were added, (segment, layer, index) is new.
   Status add_tile(const std::string& segment, const std::string& layer, std::uint32_t index,
                   const AlongRange& along, std::uint64_t items, ByteView frame);
+  // REQUIRES: the layer was added, (layer, cell) is new.
+  Status add_cell(const std::string& layer, std::uint32_t cell, std::uint64_t items,
+                  ByteView frame);
   // Computes the build, publishes the file and returns the build. Nothing may be added after it.
   Result<std::string> finish();
 

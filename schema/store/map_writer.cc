@@ -21,7 +21,7 @@ constexpr const char* kSettings =
     "PRAGMA secure_delete = ON; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
     "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -8192; PRAGMA foreign_keys = ON;";
 
-enum Insert { kMeta, kLayer, kSegment, kVertex, kSuccessor, kFrame, kTile };
+enum Insert { kMeta, kLayer, kSegment, kVertex, kSuccessor, kFrame, kTile, kCell };
 constexpr const char* kInserts[] = {
     "INSERT INTO meta VALUES (?, ?)",
     "INSERT INTO layers VALUES (?, ?)",
@@ -30,6 +30,7 @@ constexpr const char* kInserts[] = {
     "INSERT INTO successors VALUES (?, ?, ?)",
     "INSERT INTO frames VALUES (?, ?)",
     "INSERT INTO tiles VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+    "INSERT INTO cells VALUES (?, ?, ?, ?, ?, ?)",
 };
 constexpr const char* kInsertSpans =
     "INSERT INTO spans SELECT segment, layer, max(to_m - from_m) FROM tiles GROUP BY segment, "
@@ -131,6 +132,14 @@ struct MapWriter::Impl {
     return ok_status();
   }
 
+  // Returns the id of the stored bytes.
+  Result<std::int64_t> add_frame(ByteView frame) {
+    const std::int64_t id = frames++;
+    const Status stored = insert(kFrame).bind(1, id).bind(2, frame).run();
+    if (!stored.ok()) return stored.error();
+    return id;
+  }
+
   Status add_bounds() {
     const Result<Bounds> bounds = bounds_of(session->database);
     if (!bounds) return bounds.error();
@@ -205,9 +214,8 @@ Status MapWriter::add_tile(const std::string& segment, const std::string& layer,
     return wrong_call(impl_->file, "tile " + std::to_string(index) + " of segment " + segment +
                                        " has no along range");
   }
-  const std::int64_t frame_id = impl_->frames++;
-  const Status stored = impl_->insert(kFrame).bind(1, frame_id).bind(2, frame).run();
-  if (!stored.ok()) return impl_->keep(stored);
+  const Result<std::int64_t> frame_id = impl_->add_frame(frame);
+  if (!frame_id) return impl_->keep(frame_id.error());
   return impl_->keep(impl_->insert(kTile)
                          .bind(1, segment)
                          .bind(2, layer)
@@ -217,7 +225,25 @@ Status MapWriter::add_tile(const std::string& segment, const std::string& layer,
                          .bind(6, static_cast<std::int64_t>(items))
                          .bind(7, static_cast<std::int64_t>(frame.size()))
                          .bind(8, digest_of(frame))
-                         .bind(9, frame_id)
+                         .bind(9, *frame_id)
+                         .run());
+}
+
+Status MapWriter::add_cell(const std::string& layer, std::uint32_t cell, std::uint64_t items,
+                           ByteView frame) {
+  if (!impl_->failure.ok()) return impl_->failure;
+  if (!is_cell(cell)) {
+    return wrong_call(impl_->file, "the grid has no cell " + std::to_string(cell));
+  }
+  const Result<std::int64_t> frame_id = impl_->add_frame(frame);
+  if (!frame_id) return impl_->keep(frame_id.error());
+  return impl_->keep(impl_->insert(kCell)
+                         .bind(1, layer)
+                         .bind(2, static_cast<std::int64_t>(cell))
+                         .bind(3, static_cast<std::int64_t>(items))
+                         .bind(4, static_cast<std::int64_t>(frame.size()))
+                         .bind(5, digest_of(frame))
+                         .bind(6, *frame_id)
                          .run());
 }
 

@@ -28,6 +28,8 @@ Bytes encode_landmarks(const LandmarkTile& tile) {
   return compress_frame(table, landmark_array_starts(table));
 }
 
+Bytes encode_walls(const WallTile& tile) { return compress_frame(table_from_walls(tile)); }
+
 Result<TrackletTile> decode_tile(ByteView frame) { return decode(frame, tile_from_table); }
 
 Result<ObservationTile> decode_observations(ByteView frame) {
@@ -39,6 +41,8 @@ Result<FrameTile> decode_frames(ByteView frame) { return decode(frame, frames_fr
 Result<LandmarkTile> decode_landmarks(ByteView frame) {
   return decode(frame, landmarks_from_table);
 }
+
+Result<WallTile> decode_walls(ByteView frame) { return decode(frame, walls_from_table); }
 
 Result<std::size_t> stored_frame_length(ByteView stream) { return frame_length(stream); }
 

@@ -1,5 +1,5 @@
 // Tiles to bytes and back: FlatBuffers (tile.fbs and its siblings), size-prefixed, in one zstd
-// frame with checksum. FORMAT.md 3 to 5 are the layout; messages name their paragraphs.
+// frame with checksum. FORMAT.md 3 to 6 are the layout; messages name their paragraphs.
 #pragma once
 
 #include "schema/base/bytes.h"
@@ -8,6 +8,7 @@
 #include "schema/tile/landmark.h"
 #include "schema/tile/observation.h"
 #include "schema/tile/tracklet.h"
+#include "schema/tile/wall.h"
 
 namespace milepost {
 
@@ -17,12 +18,14 @@ Bytes encode_tile(const TrackletTile& tile);
 Bytes encode_observations(const ObservationTile& tile);
 Bytes encode_frames(const FrameTile& tile);
 Bytes encode_landmarks(const LandmarkTile& tile);
+Bytes encode_walls(const WallTile& tile);
 
 // The tile of one stored frame. Never trusts a byte. Errors: corrupt, naming the paragraph broken.
 Result<TrackletTile> decode_tile(ByteView frame);
 Result<ObservationTile> decode_observations(ByteView frame);
 Result<FrameTile> decode_frames(ByteView frame);
 Result<LandmarkTile> decode_landmarks(ByteView frame);
+Result<WallTile> decode_walls(ByteView frame);
 
 // The length of the zstd frame at the start of `stream`, so that a range answer can be cut into
 // tiles; 0 if the stream ends inside the frame. Errors: corrupt (the stream is not a zstd frame).

@@ -12,13 +12,15 @@ const char* name_of(LayerItems items) {
       return "frames";
     case LayerItems::landmarks:
       return "landmarks";
+    case LayerItems::walls:
+      return "walls";
   }
   return "";
 }
 
 std::optional<LayerItems> layer_items_named(std::string_view name) {
   for (const LayerItems items : {LayerItems::tracklets, LayerItems::observations,
-                                 LayerItems::frames, LayerItems::landmarks}) {
+                                 LayerItems::frames, LayerItems::landmarks, LayerItems::walls}) {
     if (name == name_of(items)) return items;
   }
   return std::nullopt;

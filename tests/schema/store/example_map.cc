@@ -40,6 +40,9 @@ void add_example(MapWriter& writer) {
   }
   expect_ok(writer.add_tile("west", "tracklets", 0, {0, 12}, 3, frame_of(50, 99)));
   expect_ok(writer.add_tile("east", "walls", 7, {70, 71}, 1, {}));
+  for (const std::uint32_t cell : kCells) {
+    expect_ok(writer.add_cell("walls", cell, 12, frame_of(500, cell)));
+  }
 }
 
 std::string write_example(const std::filesystem::path& file) {

@@ -10,11 +10,16 @@
 
 namespace milepost::testing {
 
+// The cell at latitude 49.1, longitude 8.5 and two neighbours.
+inline constexpr std::uint32_t kCells[] = {
+    27820 * kCellColumns + 37700, 27820 * kCellColumns + 37701, 27821 * kCellColumns + 37700};
+
 // Reproducible bytes that no compressor shortens, as a stored frame's.
 Bytes frame_of(std::size_t size, std::uint32_t seed);
 
 // Two segments, "east" and "west", and two layers, "tracklets" and "walls". On "east" tile i of
-// "tracklets" (0 to 9) reaches from 10 i to 10 i + 25 m; tile 3 reaches further, to 80 m.
+// "tracklets" (0 to 9) reaches from 10 i to 10 i + 25 m; tile 3 reaches further, to 80 m. "walls"
+// also has three cells: at kCells[0], right of it, and one row above.
 void add_example(MapWriter& writer);
 
 // The example's map as a file; returns its build.

@@ -75,8 +75,8 @@ TEST_F(MapDamageTest, AnotherDatabaseIsNoMap) {
 }
 
 TEST_F(MapDamageTest, AnotherFormatVersionIsNamed) {
-  change("PRAGMA user_version = 2");
-  EXPECT_THAT(open_error(), HasSubstr("town.map: this is a map of format version 2, not 1"));
+  change("PRAGMA user_version = 1");
+  EXPECT_THAT(open_error(), HasSubstr("town.map: this is a map of format version 1, not 2"));
 }
 
 TEST_F(MapDamageTest, AMissingTableIsNamed) {
@@ -148,6 +148,16 @@ TEST_F(MapDamageTest, ADamagedIndexEntryIsNamed) {
       HasSubstr("segment east, layer tracklets, tile 2: the entry in the tile index is damaged"));
 }
 
+TEST_F(MapDamageTest, ADamagedEntryOfTheCellsIsNamed) {
+  change("PRAGMA ignore_check_constraints = ON; UPDATE cells SET items = -1");
+  const auto reader = MapReader::open(file_);
+  const auto entries = reader->cell_index("walls");
+  ASSERT_FALSE(entries.ok());
+  EXPECT_EQ(entries.error().code, ErrorCode::corrupt);
+  EXPECT_THAT(entries.error().line(), HasSubstr("layer walls, cell 2003077700: the entry in the "
+                                                "index of cells is damaged"));
+}
+
 struct Change {
   const char* name;
   const char* sql;
@@ -177,6 +187,14 @@ const std::vector<Change> kChanges = {
     {"Items", "UPDATE tiles SET items = 0 WHERE number = 5", kOtherBuild},
     {"From", "UPDATE tiles SET from_m = 51 WHERE number = 5", kOtherBuild},
     {"MissingTile", "DELETE FROM tiles WHERE number = 5", kOtherBuild},
+    {"CellItems", "UPDATE cells SET items = 0", kOtherBuild},
+    {"MissingCell", "DELETE FROM cells WHERE number % 2 = 1", kOtherBuild},
+    {"CellBytes", "UPDATE cells SET bytes = 1 WHERE number = 27820 * 72000 + 37700",
+     "layer walls, cell 2003077700: the tile's bytes break its digest"},
+    {"CellFrame", "UPDATE frames SET frame = x'00' WHERE id = 12",
+     "layer walls, cell 2003077700: the tile's bytes break its digest"},
+    {"MissingCellFrame", "DELETE FROM frames WHERE id = 14",
+     "layer walls, cell 2003149700: the tile's bytes break its digest"},
     {"Bounds", "UPDATE meta SET value = 1.0 WHERE key = 'west_deg'",
      "the bounds are not those of the vertices"},
     {"MissingFrame", "DELETE FROM frames WHERE id = 5",

@@ -86,6 +86,48 @@ TEST_F(MapReaderTest, GivesBackEveryFrame) {
   EXPECT_THAT(*reader_->tile("east", "walls", 7), IsEmpty());
 }
 
+TEST_F(MapReaderTest, GivesBackTheCells) {
+  const auto entries = reader_->cell_index("walls");
+  ASSERT_TRUE(entries.ok()) << entries.error().line();
+  ASSERT_EQ(entries->size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t cell = testing::kCells[i];
+    EXPECT_EQ((*entries)[i].cell, cell);
+    EXPECT_EQ((*entries)[i].items, 12U);
+    EXPECT_EQ((*entries)[i].bytes, 500U);
+    EXPECT_EQ((*entries)[i].digest, digest_of(frame_of(500, cell)));
+    EXPECT_EQ(*reader_->cell("walls", cell), frame_of(500, cell));
+  }
+  EXPECT_THAT(*reader_->cell_index("tracklets"), IsEmpty());
+}
+
+// The cells: 0 [49.1, 49.105] x [8.5, 8.505]; 1 is to the east of it, 2 to the north.
+TEST_F(MapReaderTest, FindsTheCellsThatMeetABox) {
+  const auto found_in = [&](const Bounds& box) {
+    const auto entries = reader_->cells_in("walls", box);
+    std::vector<std::uint32_t> cells;
+    if (!entries.ok()) ADD_FAILURE() << entries.error().line();
+    if (entries.ok()) {
+      for (const CellEntry& entry : *entries) cells.push_back(entry.cell);
+    }
+    return cells;
+  };
+  const auto& cells = testing::kCells;
+  EXPECT_THAT(found_in({8.501, 49.101, 8.502, 49.102}), ElementsAre(cells[0]));
+  EXPECT_THAT(found_in({8.504, 49.101, 8.506, 49.102}), ElementsAre(cells[0], cells[1]));
+  EXPECT_THAT(found_in({8.501, 49.105, 8.502, 49.2}), ElementsAre(cells[0], cells[2]));
+  EXPECT_THAT(found_in({-180, -90, 180, 90}), ElementsAre(cells[0], cells[1], cells[2]));
+  EXPECT_THAT(found_in({8.511, 49.101, 9, 49.102}), IsEmpty());
+}
+
+TEST_F(MapReaderTest, AnAbsentCellOrLayerIsNotFound) {
+  const auto cell = reader_->cell("walls", 7);
+  ASSERT_FALSE(cell.ok());
+  EXPECT_EQ(cell.error().code, ErrorCode::not_found);
+  EXPECT_THAT(cell.error().line(), HasSubstr("the map has no layer walls, cell 7"));
+  EXPECT_EQ(reader_->cell_index("signs").error().code, ErrorCode::not_found);
+}
+
 // Tiles of "east":   0 [0, 25]  1 [10, 35]  2 [20, 45]  3 [30, 80]  4 [40, 65] ... 9 [90, 115]
 TEST_F(MapReaderTest, FindsTheTilesThatMeetARange) {
   EXPECT_THAT(found(26, 29), ElementsAre(1, 2));

@@ -67,8 +67,9 @@ TEST_F(MapWriterTest, TheBuildIsTheDigestThatFormatMdTells) {
   ASSERT_TRUE(map.add_layer("l", "{\"a\": 1}").ok());
   ASSERT_TRUE(map.add_segment({"s", 20, {{49, 8, 100, 0.5}}, {"t"}}).ok());
   ASSERT_TRUE(map.add_tile("s", "l", 6, {1, 2.5}, 3, as_bytes("abc")).ok());
+  ASSERT_TRUE(map.add_cell("l", 77, 4, as_bytes("walls")).ok());
   FieldDigest digest;
-  digest.add(std::uint64_t{1});
+  digest.add(std::uint64_t{2});
   digest.add("{}");
   digest.add(std::uint64_t{1});
   digest.add("l");
@@ -93,6 +94,10 @@ TEST_F(MapWriterTest, TheBuildIsTheDigestThatFormatMdTells) {
   digest.add(std::uint64_t{3});
   digest.add(std::uint64_t{3});
   digest.add(digest_of(as_bytes("abc")));
+  digest.add(std::uint64_t{1});
+  digest.add("l");
+  for (const std::uint64_t number : {77, 4, 5}) digest.add(number);
+  digest.add(digest_of(as_bytes("walls")));
   EXPECT_EQ(*map.finish(), digest.finish());
 }
 
@@ -170,6 +175,8 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
                  "tile 8 of segment east has no along range");
   expect_refused(map.add_tile("east", "walls", 8, {nan, 1}, 1, {}),
                  "tile 8 of segment east has no along range");
+  expect_refused(map.add_cell("walls", kCellRows * kCellColumns, 1, {}),
+                 "the grid has no cell 2592000000");
   const auto build = map.finish();
   ASSERT_TRUE(build.ok()) << build.error().line();
   EXPECT_EQ(*build, testing::write_example(folder_ / "same.map"));
@@ -187,6 +194,32 @@ TEST_F(MapWriterTest, AfterAnErrorOfSqliteThereIsNoMap) {
   ASSERT_FALSE(build.ok());
   EXPECT_EQ(build.error().line(), twice.error().line());
   EXPECT_FALSE(fs::exists(file_));
+}
+
+TEST_F(MapWriterTest, ACellNeedsItsLayerAndIsThereOnce) {
+  for (const std::string layer : {"nowhere", "walls"}) {
+    MapWriter map = writer();
+    testing::add_example(map);
+    const Status status = map.add_cell(layer, testing::kCells[0], 1, {});
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
+    EXPECT_THAT(status.error().line(), HasSubstr("constraint failed"));
+  }
+}
+
+TEST_F(MapWriterTest, TheBoundsAreAroundTheCellsToo) {
+  MapWriter map = writer();
+  ASSERT_TRUE(map.add_layer("walls", "{}").ok());
+  ASSERT_TRUE(map.add_cell("walls", GridCell::at(49.101, 8.501).number(), 0, {}).ok());
+  ASSERT_TRUE(map.add_cell("walls", GridCell::at(49.106, 8.491).number(), 0, {}).ok());
+  ASSERT_TRUE(map.finish().ok());
+  const auto reader = MapReader::open(file_);
+  ASSERT_TRUE(reader.ok()) << reader.error().line();
+  EXPECT_EQ(reader->bounds().west_deg, 8.49);
+  EXPECT_EQ(reader->bounds().south_deg, 49.1);
+  EXPECT_EQ(reader->bounds().east_deg, 8.505);
+  EXPECT_EQ(reader->bounds().north_deg, 49.11);
+  EXPECT_TRUE(reader->verify().ok());
 }
 
 TEST_F(MapWriterTest, ATileNeedsItsSegmentAndItsLayer) {
