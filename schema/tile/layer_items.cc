@@ -12,15 +12,13 @@ const char* name_of(LayerItems items) {
       return "frames";
     case LayerItems::landmarks:
       return "landmarks";
-    case LayerItems::walls:
-      return "walls";
   }
   return "";
 }
 
 std::optional<LayerItems> layer_items_named(std::string_view name) {
   for (const LayerItems items : {LayerItems::tracklets, LayerItems::observations,
-                                 LayerItems::frames, LayerItems::landmarks, LayerItems::walls}) {
+                                 LayerItems::frames, LayerItems::landmarks}) {
     if (name == name_of(items)) return items;
   }
   return std::nullopt;

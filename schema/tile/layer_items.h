@@ -6,7 +6,7 @@
 
 namespace milepost {
 
-enum class LayerItems { tracklets, observations, frames, landmarks, walls };
+enum class LayerItems { tracklets, observations, frames, landmarks };
 
 const char* name_of(LayerItems items);
 std::optional<LayerItems> layer_items_named(std::string_view name);

@@ -10,7 +10,6 @@ TEST(LayerItems, AreNamedAsFormatMdSays) {
   EXPECT_EQ(layer_items_named("observations"), LayerItems::observations);
   EXPECT_EQ(layer_items_named("frames"), LayerItems::frames);
   EXPECT_EQ(layer_items_named("landmarks"), LayerItems::landmarks);
-  EXPECT_EQ(layer_items_named("walls"), LayerItems::walls);
   EXPECT_STREQ(name_of(LayerItems::landmarks), "landmarks");
   EXPECT_FALSE(layer_items_named("signs").has_value());
 }
