@@ -1,0 +1,54 @@
+#include "client/find/mode_watch.h"
+
+#include <algorithm>
+
+namespace milepost {
+namespace {
+
+constexpr double kLatelyRate = 0.1;  // of what is new in a frame
+constexpr double kUsuallyRate = 0.01;
+constexpr double kDoubtBelow = 0.6;  // of the usual
+
+}  // namespace
+
+const char* name_of(FindStatus status) {
+  switch (status) {
+    case FindStatus::initializing:
+      return "initializing";
+    case FindStatus::tracking:
+      return "tracking";
+    case FindStatus::predicted:
+      return "predicted";
+    case FindStatus::lost:
+      return "lost";
+  }
+  return "";
+}
+
+FindStatus ModeWatch::observe(const BeliefMode& mode, std::optional<double> explained,
+                              const WheelMotion& motion) {
+  if (explained) {
+    lately_ += kLatelyRate * (*explained - lately_);
+    usually_ += kUsuallyRate * (*explained - usually_);
+  }
+  const bool stays =
+      place_ &&
+      (moved(*place_, motion.distance_m, motion.turn_rad).enu_m - mode.pose.enu_m).norm() <=
+          settings_.place_m;
+  place_ = mode.pose;
+  const double least_mass = found_ ? settings_.kept_mass : settings_.found_mass;
+  const double least_explained = found_ ? settings_.kept_explained : settings_.found_explained;
+  const bool holds = stays && mode.mass >= least_mass && lately_ >= least_explained;
+  way_m_ = holds ? way_m_ + std::abs(motion.distance_m) : 0;
+  found_ = holds && (found_ || way_m_ >= settings_.found_way_m);
+  was_found_ = was_found_ || found_;
+  if (!found_) return was_found_ ? FindStatus::lost : FindStatus::initializing;
+  return explained ? FindStatus::tracking : FindStatus::predicted;
+}
+
+double ModeWatch::doubt() const {
+  if (usually_ <= 0) return 0;
+  return std::max(0.0, 1 - lately_ / (kDoubtBelow * usually_));
+}
+
+}  // namespace milepost

@@ -1,0 +1,55 @@
+// When a belief is a finding: one place carries it, and goes where the wheels go, and explains what
+// is seen, for some way.
+#pragma once
+
+#include <optional>
+
+#include "client/find/mean_shift.h"
+#include "client/find/plan_pose.h"
+
+namespace milepost {
+
+enum class FindStatus {
+  initializing,  // no place carries the belief yet
+  tracking,      // one does, and this frame was weighed
+  predicted,     // one does, carried on by the wheels: this frame told nothing
+  lost,          // one did, and does no more
+};
+
+const char* name_of(FindStatus status);
+
+struct WatchSettings {
+  double found_mass = 0.9;        // of the mode, to be found
+  double found_explained = 0.35;  // of what is seen, lately
+  double found_way_m = 15;        // so far both must hold, in one place
+  double kept_mass = 0.5;         // to stay found
+  double kept_explained = 0.2;
+  double place_m = 5;  // a mode that jumps farther is another place
+};
+
+class ModeWatch {
+ public:
+  explicit ModeWatch(const WatchSettings& settings) : settings_(settings) {}
+
+  // `explained`: the share of what the frame shows that the walls about the mode explain; none if
+  // it shows nothing.
+  FindStatus observe(const BeliefMode& mode, std::optional<double> explained,
+                     const WheelMotion& motion);
+
+  bool is_found() const { return found_; }
+  double explained() const { return lately_; }
+  // 0 while the mode explains as much as it used to, up to 1 when it explains nothing any more
+  // (the augmented filter of Thrun, Burgard and Fox, Probabilistic Robotics, 2005, Table 8.3).
+  double doubt() const;
+
+ private:
+  WatchSettings settings_;
+  std::optional<PlanPose> place_;
+  double way_m_ = 0;
+  double lately_ = 0;
+  double usually_ = 0;
+  bool found_ = false;
+  bool was_found_ = false;
+};
+
+}  // namespace milepost

@@ -1,0 +1,63 @@
+// The particles of the filter (the aerial paper, section IV): poses with weights.
+#pragma once
+
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "client/find/plan_pose.h"
+#include "client/find/wall_index.h"
+
+namespace milepost {
+
+struct Particle {
+  PlanPose pose;
+  double weight = 0;
+};
+
+// Weights of a cloud add up to 1.
+using ParticleCloud = std::vector<Particle>;
+
+// A start that is known so far: normal about a pose. A heading sigma of pi or more means any.
+struct StartBelief {
+  PlanPose pose;
+  double sigma_m = 0;  // in each direction
+  double heading_sigma_rad = 0;
+};
+
+// Standard deviations of a step.
+struct MotionNoise {
+  double along_m = 0;     // per root of a second
+  double along_part = 0;  // of its distance
+  double turn_rad = 0;    // per root of a second
+};
+
+using Random = std::mt19937_64;
+
+// A pose anywhere in the box, in any direction.
+PlanPose uniform_pose(const PlanBox& area, Random& random);
+
+ParticleCloud uniform_cloud(std::size_t count, const PlanBox& area, Random& random);
+ParticleCloud cloud_about(const StartBelief& start, std::size_t count, Random& random);
+
+// Eq. 1 for each particle, with noise of its own. A particle that goes through a wall or leaves the
+// area is drawn anew, anywhere in it. Returns how many were.
+std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const MotionNoise& noise,
+                       const WallIndex& walls, const PlanBox& area, Random& random);
+
+// Multiplies weights by e^log_likelihoods[i] and makes them add up to 1.
+void weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods);
+
+// 1 / sum of squared weights: how many particles carry the belief.
+double effective_count(const ParticleCloud& cloud);
+
+// Low-variance sampling (Thrun, Burgard and Fox, Probabilistic Robotics, 2005): `count` particles
+// of equal weight by one random number.
+ParticleCloud resampled(const ParticleCloud& cloud, std::size_t count, Random& random);
+
+// How many particles tell a belief that fills so many bins of the plan and of headings as the cloud
+// does, with an error of less than 0.05 in 99 of 100 cases; at least 200 (KLD sampling: Fox, IJRR
+// 22, 2003).
+std::size_t enough_particles(const ParticleCloud& cloud, double bin_m, double bin_rad);
+
+}  // namespace milepost

@@ -1,0 +1,34 @@
+// Poses in plan view, and how wheels move them.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace milepost {
+
+// Of a vehicle's camera in a local tangent frame.
+struct PlanPose {
+  Eigen::Vector2d enu_m = Eigen::Vector2d::Zero();  // east, north
+  double heading_rad = 0;                           // clockwise from north
+};
+
+// The unit vector east, north of an azimuth, clockwise from north.
+inline Eigen::Vector2d direction_of(double azimuth_rad) {
+  return {std::sin(azimuth_rad), std::cos(azimuth_rad)};
+}
+
+// What the wheels say of the way between two times.
+struct WheelMotion {
+  double duration_s = 0;
+  double distance_m = 0;  // forwards
+  double turn_rad = 0;    // clockwise
+};
+
+// The aerial paper, Eq. 1: along the chord, whose direction lies half-way through the turn.
+inline PlanPose moved(const PlanPose& pose, double distance_m, double turn_rad) {
+  return {pose.enu_m + distance_m * direction_of(pose.heading_rad + turn_rad / 2),
+          pose.heading_rad + turn_rad};
+}
+
+}  // namespace milepost

@@ -1,0 +1,76 @@
+// The particle filter of the aerial paper, section IV: where a vehicle is among the walls of an
+// area, from what its frames tell of walls and from its wheels.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "client/find/mode_watch.h"
+#include "client/find/particle_cloud.h"
+#include "client/find/range_agreement.h"
+#include "client/find/wall_index.h"
+#include "client/find/wall_observer.h"
+
+namespace milepost {
+
+enum class FindMethod {
+  orientations,  // the paper's: wall orientations by bearing, Eqs. 2 to 4
+  ranges,        // ours (decision 21): how far away what is seen stands
+};
+
+struct FilterSettings {
+  FindMethod method = FindMethod::ranges;
+  std::size_t particles = 2000;
+  std::uint64_t seed = 1;
+  std::optional<StartBelief> start;  // none: anywhere in the area
+  double view_reach_m = 60;          // walls farther away are not seen
+  WatchSettings watch;
+};
+
+// The answer for one frame.
+struct Found {
+  FindStatus status = FindStatus::initializing;
+  BeliefMode mode;       // where the belief is densest, whatever the status
+  double explained = 0;  // share of what was seen lately that the walls there explain
+};
+
+// Not safe to use from several threads at once. The same observations, motions and settings give
+// the same answers.
+class WallFilter {
+ public:
+  // The walls must live as long as the filter. REQUIRES: particles > 0; the area is not empty.
+  WallFilter(const WallIndex& walls, const PlanBox& area, const FilterSettings& settings);
+
+  // `motion` is that since the last call.
+  Found update(const WallObservation& observation, const WheelMotion& motion);
+
+  const ParticleCloud& particles() const { return cloud_; }
+
+ private:
+  struct Weighing {
+    double metres = 0;  // by which the evidence of beams counts
+    RangeSettings ranges;
+  };
+
+  void start_from(const WallObservation& observation);
+  void weigh(ParticleCloud& cloud, const WallObservation& observation,
+             const Weighing& weighing) const;
+  std::optional<double> explained_by(const PlanPose& pose,
+                                     const WallObservation& observation) const;
+  void challenge(const WallObservation& observation, double duration_s);
+  void resample();
+
+  const WallIndex& walls_;
+  PlanBox area_;
+  FilterSettings settings_;
+  Random random_;
+  ParticleCloud cloud_;
+  ModeWatch watch_;
+  bool is_started_ = false;  // from a first observation
+  double way_m_ = 0;         // since beams were weighed
+  double duration_s_ = 0;    // since the belief was challenged
+};
+
+}  // namespace milepost

@@ -1,0 +1,34 @@
+// The wheels' readings, and the motion that they tell of.
+#pragma once
+
+#include <optional>
+
+#include "client/find/plan_pose.h"
+
+namespace milepost {
+
+struct WheelReading {
+  double timestamp_s = 0;
+  double speed_mps = 0;     // forwards
+  double yaw_rate_dps = 0;  // degrees a second, clockwise
+};
+
+// Adds up readings, each of which holds from its time to the next one's.
+class WheelLog {
+ public:
+  // A reading that is not finite, or not later than the one before, is left out.
+  void add(const WheelReading& reading);
+
+  // The motion since the last call, up to `timestamp_s`; the first call begins at its own time.
+  // Readings later than `timestamp_s` must not have been added.
+  WheelMotion motion_until(double timestamp_s);
+
+ private:
+  void advance(double timestamp_s);
+
+  std::optional<WheelReading> latest_;
+  std::optional<double> until_s_;  // up to which `motion_` is added up
+  WheelMotion motion_;
+};
+
+}  // namespace milepost
