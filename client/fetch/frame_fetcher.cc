@@ -11,22 +11,26 @@ std::uint64_t bytes_of(const std::vector<ExpectedFrame>& frames) {
   return bytes;
 }
 
+CacheKey key_of(CacheKey layer_key, std::uint32_t number) {
+  layer_key.number = number;
+  return layer_key;
+}
+
 }  // namespace
 
 // The frames that a call collects.
 struct FrameFetcher::Collection {
-  CacheKey key;  // of the last frame that was looked for or stored
+  const CacheKey& layer_key;
   std::set<std::uint32_t> missing = {};
   std::map<std::uint32_t, Bytes> frames = {};
 };
 
-Result<std::map<std::uint32_t, Bytes>> FrameFetcher::fetch(const CacheKey& key,
+Result<std::map<std::uint32_t, Bytes>> FrameFetcher::fetch(const CacheKey& layer_key,
                                                            const std::vector<ExpectedFrame>& wanted,
                                                            const RequestFor& request_for) {
-  Collection collection{key};
+  Collection collection{layer_key};
   for (const ExpectedFrame& frame : wanted) {
-    collection.key.number = frame.number;
-    if (auto cached = cache_.find(collection.key, frame.digest)) {
+    if (auto cached = cache_.find(key_of(layer_key, frame.number), frame.digest)) {
       collection.frames[frame.number] = std::move(*cached);
       ++from_cache_;
     } else {
@@ -57,8 +61,7 @@ Attempt FrameFetcher::fetch_once(const FrameRequest& request, Collection& collec
 
 void FrameFetcher::take_from_server(std::uint32_t number, Bytes frame, Collection& collection) {
   ++from_server_;
-  collection.key.number = number;
-  cache_.store(collection.key, frame);
+  cache_.store(key_of(collection.layer_key, number), frame);
   collection.missing.erase(number);
   collection.frames[number] = std::move(frame);
 }

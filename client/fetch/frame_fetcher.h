@@ -31,10 +31,10 @@ class FrameFetcher {
   // Both outlive the fetcher.
   FrameFetcher(ServerRequests& requests, TileCache& cache) : requests_(requests), cache_(cache) {}
 
-  // The wanted frames, by number. `key` is theirs in the cache, but for the number. Whole frames of
-  // an answer that breaks off are kept, and the rest is asked for again.
+  // The wanted frames, by number. `layer_key` is theirs in the cache, but for the number. Whole
+  // frames of an answer that breaks off are kept, and the rest is asked for again.
   // Errors: those of HttpAnswer; corrupt (an answer of other frames than `request_for` expects).
-  Result<std::map<std::uint32_t, Bytes>> fetch(const CacheKey& key,
+  Result<std::map<std::uint32_t, Bytes>> fetch(const CacheKey& layer_key,
                                                const std::vector<ExpectedFrame>& wanted,
                                                const RequestFor& request_for);
 

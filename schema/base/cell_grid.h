@@ -59,7 +59,8 @@ struct GridCell {
   static GridCell at(double latitude_deg, double longitude_deg) {
     const auto index = [](double degrees, std::uint32_t count) {
       const double from_zero = std::floor(degrees * kCellsPerDegree);
-      const auto below = std::min(static_cast<std::uint32_t>(from_zero + count / 2), count - 1);
+      const std::uint32_t middle = count / 2;
+      const auto below = std::min(static_cast<std::uint32_t>(from_zero + middle), count - 1);
       // The product of a border and the cells of a degree may be rounded to below the border.
       return below + 1 < count && border_deg(below + 1, count) <= degrees ? below + 1 : below;
     };
@@ -74,7 +75,8 @@ struct GridCell {
  private:
   // Rounded once, so that a border is the same number however it is reached.
   static double border_deg(std::uint32_t index, std::uint32_t count) {
-    return (double{1} * index - count / 2) / kCellsPerDegree;
+    const std::uint32_t middle = count / 2;
+    return (double{1} * index - middle) / kCellsPerDegree;
   }
 };
 
