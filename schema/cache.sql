@@ -4,15 +4,16 @@
 PRAGMA application_id = 1297108785;  -- 0x4D504F31, "MPO1"
 PRAGMA user_version = 1;             -- of this layout
 
--- Tiles as the server stores them, and the documents that tell which tiles there are.
--- A segment's document has layer '' and number 0; a map's has segment '' too.
+-- Tiles and cells as the server stores them, and the documents that tell which there are.
+-- A cell has segment '' and its number in the grid. A document has layer '': a segment's has number
+-- 0; the map's has segment '' and number 0; the index of the map's cells has segment '' and number 1.
 CREATE TABLE entries (
   id         INTEGER PRIMARY KEY,
   map        TEXT NOT NULL,
   build      TEXT NOT NULL,
   segment    TEXT NOT NULL,
   layer      TEXT NOT NULL,
-  number     INTEGER NOT NULL,   -- the tile's index
+  number     INTEGER NOT NULL,   -- the tile's index, or the cell's number
   digest     TEXT NOT NULL,      -- of the content, checked whenever it is read
   bytes      INTEGER NOT NULL,   -- length of the content
   last_use_s INTEGER NOT NULL,   -- since 1970
@@ -23,7 +24,7 @@ CREATE TABLE entries (
 -- Oldest use first; a document outlives the tiles that were last used in the same second.
 CREATE INDEX entries_by_use ON entries (last_use_s, layer = '', id);
 
--- The documents apart from the tiles, to find segments when no server answers.
+-- The documents apart from the tiles, to find maps and segments when no server answers.
 CREATE INDEX documents ON entries (map, last_use_s) WHERE layer = '';
 
 -- The bytes of all entries, kept by the triggers, so that the limit is checked without counting.

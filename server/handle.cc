@@ -30,6 +30,9 @@ const std::vector<Route>& routes() {
        {"layer", "from_m", "to_m"},
        answer_tile_range},
       {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles/{layer}/{index}", {}, answer_tile},
+      {"/v1/maps/{map}/builds/{build}/areas", {}, answer_areas},
+      {"/v1/maps/{map}/builds/{build}/areas/{layer}", {"bbox"}, answer_cell_range},
+      {"/v1/maps/{map}/builds/{build}/areas/{layer}/{cell}", {}, answer_cell},
   };
   return table;
 }

@@ -48,6 +48,13 @@ unsigned status_of(ErrorCode code) {
   return 500;
 }
 
+template <class Entry>
+std::uint64_t bytes_of(const std::vector<const Entry*>& entries) {
+  std::uint64_t bytes = 0;
+  for (const Entry* entry : entries) bytes += entry->bytes;
+  return bytes;
+}
+
 }  // namespace
 
 std::string_view Response::header(std::string_view name) const {
@@ -58,9 +65,8 @@ std::string_view Response::header(std::string_view name) const {
 
 std::uint64_t Response::content_length() const {
   if (const auto* text = std::get_if<SharedText>(&body)) return *text ? (*text)->size() : 0;
-  std::uint64_t bytes = 0;
-  for (const TileEntry* tile : std::get<TileList>(body).tiles) bytes += tile->bytes;
-  return bytes;
+  if (const auto* list = std::get_if<TileList>(&body)) return bytes_of(list->tiles);
+  return bytes_of(std::get<CellList>(body).cells);
 }
 
 SharedText shared_text(std::string text) {

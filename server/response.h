@@ -25,10 +25,17 @@ struct TileList {
   std::vector<const TileEntry*> tiles;  // entries of `map`, ascending by index
 };
 
+// The same of stored cells of one layer.
+struct CellList {
+  std::shared_ptr<const ServedMap> map;
+  std::string layer;
+  std::vector<const CellEntry*> cells;  // entries of `map`, ascending by cell
+};
+
 struct Response {
   unsigned status = 200;
   std::vector<std::pair<std::string, std::string>> headers;  // without Content-Length
-  std::variant<SharedText, TileList> body;                   // a null text is an empty body
+  std::variant<SharedText, TileList, CellList> body;         // a null text is an empty body
 
   // The value of a header, empty if absent. `name` as it was added.
   std::string_view header(std::string_view name) const;

@@ -131,21 +131,31 @@ Status replace_row(sqlite::Database& database, const CacheKey& key, ByteView con
   return done.ok() ? transaction.commit() : done;
 }
 
-Status read_documents(sqlite::Database& database, std::vector<CachedDocument>& documents) {
-  auto select = database.prepare(
-      "SELECT map, build, segment, digest, content FROM entries AS e"
-      " WHERE layer = '' AND segment <> '' AND build ="
-      " (SELECT build FROM entries WHERE layer = '' AND segment <> '' AND map = e.map"
-      "  ORDER BY last_use_s DESC, id DESC LIMIT 1)");
+constexpr char kSegmentDocuments[] =
+    "SELECT map, build, segment, digest, content FROM entries AS e"
+    " WHERE layer = '' AND segment <> '' AND build ="
+    " (SELECT build FROM entries WHERE layer = '' AND segment <> '' AND map = e.map"
+    "  ORDER BY last_use_s DESC, id DESC LIMIT 1)";
+constexpr char kMapDocuments[] =
+    "SELECT map, build, segment, digest, content FROM entries AS e"
+    " WHERE layer = '' AND segment = '' AND number = 0 AND build ="
+    " (SELECT build FROM entries WHERE layer = '' AND segment = '' AND number = 0 AND map = e.map"
+    "  ORDER BY last_use_s DESC, id DESC LIMIT 1) ORDER BY map";
+
+Status read_documents(sqlite::Database& database, const char* query,
+                      std::vector<CachedDocument>& documents) {
+  auto select = database.prepare(query);
   if (!select.ok()) return select.error();
   for (;;) {
     const Result<bool> row = select->step();
     if (!row.ok()) return row.error();
     if (!*row) return ok_status();
     if (digest_of(select->blob(4)) != select->text(3)) continue;
-    documents.push_back(
-        {CacheKey::segment_document(select->text(0), select->text(1), select->text(2)),
-         select->text(4)});
+    CacheKey key;
+    key.map = select->text(0);
+    key.build = select->text(1);
+    key.segment = select->text(2);
+    documents.push_back({std::move(key), select->text(4)});
   }
 }
 
@@ -225,7 +235,17 @@ void TileCache::remove(const CacheKey& key) {
 
 std::vector<CachedDocument> TileCache::segment_documents() {
   std::vector<CachedDocument> documents;
-  run([&](sqlite::Database& database) { return read_documents(database, documents); });
+  run([&](sqlite::Database& database) {
+    return read_documents(database, kSegmentDocuments, documents);
+  });
+  return documents;
+}
+
+std::vector<CachedDocument> TileCache::map_documents() {
+  std::vector<CachedDocument> documents;
+  run([&](sqlite::Database& database) {
+    return read_documents(database, kMapDocuments, documents);
+  });
   return documents;
 }
 

@@ -1,4 +1,4 @@
-// What the vehicle keeps on disk: tiles, and the documents that tell which tiles there are.
+// What the vehicle keeps on disk: tiles and cells, and the documents that tell which there are.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,16 @@ namespace milepost {
 struct CacheKey {
   std::string map;
   std::string build;
-  std::string segment;       // empty: the map's own document
+  std::string segment;       // empty: of the whole map
   std::string layer;         // empty: a document
-  std::uint32_t number = 0;  // the tile's index; 0 for documents
+  std::uint32_t number = 0;  // the tile's index, or the cell's number
 
   static CacheKey map_document(std::string map, std::string build) {
     return {std::move(map), std::move(build), "", "", 0};
+  }
+  // The index of the map's cells.
+  static CacheKey areas_document(std::string map, std::string build) {
+    return {std::move(map), std::move(build), "", "", 1};
   }
   static CacheKey segment_document(std::string map, std::string build, std::string segment) {
     return {std::move(map), std::move(build), std::move(segment), "", 0};
@@ -71,6 +75,8 @@ class TileCache {
   void remove(const CacheKey& key);
   // The segment documents of each map's most recently used build.
   std::vector<CachedDocument> segment_documents();
+  // The map document of each map's most recently used build, by the map's name.
+  std::vector<CachedDocument> map_documents();
 
   // Of all contents.
   std::uint64_t bytes();

@@ -13,6 +13,7 @@ namespace {
 constexpr double kMaxAlong_m = 1e8;  // beyond twice around the Earth
 constexpr double kMaxAltitude_m = 1e5;
 constexpr std::uint64_t kMaxTileBytes = 256ULL << 20U;
+constexpr std::uint32_t kLastCell = kCellRows * kCellColumns - 1;
 
 std::string segment_id(JsonFields& fields, const Json& object, const char* key) {
   std::string id = fields.text(object, key);
@@ -41,32 +42,74 @@ std::vector<std::string> successors_of(JsonFields& fields, const Json& json) {
   return successors;
 }
 
+// The fields that a tile and a cell have alike.
+template <class Entry>
+void read_stored(JsonFields& fields, const Json& json, Entry& entry) {
+  entry.items = fields.whole(json, "items", std::numeric_limits<std::uint64_t>::max());
+  entry.bytes = fields.whole(json, "bytes", kMaxTileBytes);
+  entry.digest = fields.text(json, "digest");
+  if (fields.ok() && entry.bytes == 0) fields.fail("a tile without bytes");
+  if (fields.ok() && !is_digest(entry.digest)) fields.fail("\"digest\" is no digest");
+}
+
 TileEntry tile_entry_of(JsonFields& fields, const Json& json) {
   TileEntry entry;
   entry.index = static_cast<std::uint32_t>(
       fields.whole(json, "index", std::numeric_limits<std::uint32_t>::max()));
   entry.along.from_m = fields.number(json, "from_m", -kMaxAlong_m, kMaxAlong_m);
   entry.along.to_m = fields.number(json, "to_m", entry.along.from_m, kMaxAlong_m);
-  entry.items = fields.whole(json, "items", std::numeric_limits<std::uint64_t>::max());
-  entry.bytes = fields.whole(json, "bytes", kMaxTileBytes);
-  entry.digest = fields.text(json, "digest");
-  if (fields.ok() && entry.bytes == 0) fields.fail("a tile without bytes");
-  if (fields.ok() && !is_digest(entry.digest)) fields.fail("\"digest\" is no digest");
+  read_stored(fields, json, entry);
   return entry;
 }
 
-std::vector<TileEntry> tile_index_of(JsonFields& fields, const Json& list) {
-  std::vector<TileEntry> index;
+CellEntry cell_entry_of(JsonFields& fields, const Json& json) {
+  CellEntry entry;
+  entry.cell = static_cast<std::uint32_t>(fields.whole(json, "cell", kLastCell));
+  read_stored(fields, json, entry);
+  return entry;
+}
+
+// The entries of a layer, ascending by `number_of`.
+template <class Entry>
+std::vector<Entry> index_of(JsonFields& fields, const Json& list,
+                            Entry (*entry_of)(JsonFields&, const Json&),
+                            std::uint32_t Entry::*number_of) {
+  std::vector<Entry> index;
   if (!list.is_array()) fields.fail("a layer's tiles are no list");
   for (const Json& json : list) {
-    TileEntry entry = tile_entry_of(fields, json);
-    if (!index.empty() && entry.index <= index.back().index) {
+    Entry entry = entry_of(fields, json);
+    if (!index.empty() && entry.*number_of <= index.back().*number_of) {
       fields.fail("the tiles of a layer are not ascending");
     }
     if (!fields.ok()) return {};
     index.push_back(std::move(entry));
   }
   return index;
+}
+
+// The index of each layer in the object `key`.
+template <class Entry>
+std::map<std::string, std::vector<Entry>> indices_of(JsonFields& fields, const Json& json,
+                                                     const char* key,
+                                                     Entry (*entry_of)(JsonFields&, const Json&),
+                                                     std::uint32_t Entry::*number_of) {
+  std::map<std::string, std::vector<Entry>> indices;
+  for (const auto& [layer, list] : fields.object(json, key).items()) {
+    if (!is_layer_name(layer)) {
+      fields.fail(std::string("\"") + key + "\" has a member that is no layer's name");
+    }
+    indices[layer] = index_of(fields, list, entry_of, number_of);
+  }
+  return indices;
+}
+
+Bounds bounds_of(JsonFields& fields, const Json& json) {
+  Bounds bounds;
+  bounds.west_deg = fields.number(json, "west_deg", -180, 180);
+  bounds.south_deg = fields.number(json, "south_deg", -90, 90);
+  bounds.east_deg = fields.number(json, "east_deg", bounds.west_deg, 180);
+  bounds.north_deg = fields.number(json, "north_deg", bounds.south_deg, 90);
+  return bounds;
 }
 
 void check_is_about(JsonFields& fields, const std::string& asked, const std::string& told) {
@@ -86,6 +129,18 @@ NearbySegment nearby_of(JsonFields& fields, const Json& json) {
 }
 
 }  // namespace
+
+Result<std::vector<MapVersion>> parse_catalog_document(std::string_view text,
+                                                       const std::string& where) {
+  JsonFields fields(where);
+  const Json json = fields.parsed(text);
+  std::vector<MapVersion> maps;
+  for (const Json& entry : fields.array(json, "maps")) {
+    maps.push_back(version_of(fields, entry, "name"));
+  }
+  if (!fields.ok()) return fields.error();
+  return maps;
+}
 
 Result<std::vector<NearbySegment>> parse_nearby_document(std::string_view text,
                                                          const std::string& where) {
@@ -116,6 +171,7 @@ Result<MapDescription> parse_map_document(std::string_view text, const std::stri
     description.layers[name] = fields.object(parameters, name.c_str()).dump();
   }
   description.feature_json = fields.object(json, "feature").dump();
+  description.bounds = bounds_of(fields, fields.object(json, "bounds"));
   if (!fields.ok()) return fields.error();
   return description;
 }
@@ -135,10 +191,18 @@ Result<SegmentDocument> parse_segment_document(std::string_view text, const std:
     document.description.vertices.push_back(vertex_of(fields, point));
   }
   document.description.successors = successors_of(fields, json);
-  for (const auto& [layer, tiles] : fields.object(json, "tiles").items()) {
-    if (!is_layer_name(layer)) fields.fail("\"tiles\" has a member that is no layer's name");
-    document.tiles[layer] = tile_index_of(fields, tiles);
-  }
+  document.tiles = indices_of(fields, json, "tiles", tile_entry_of, &TileEntry::index);
+  if (!fields.ok()) return fields.error();
+  return document;
+}
+
+Result<AreasDocument> parse_areas_document(std::string_view text, const std::string& where,
+                                           const MapVersion& version) {
+  JsonFields fields(where);
+  const Json json = fields.parsed(text);
+  check_is_about(fields, version.map, fields.text(json, "map"));
+  check_is_about(fields, version.build, fields.text(json, "build"));
+  AreasDocument document = indices_of(fields, json, "cells", cell_entry_of, &CellEntry::cell);
   if (!fields.ok()) return fields.error();
   return document;
 }
@@ -148,6 +212,14 @@ std::vector<TileEntry> entries_meeting(const std::vector<TileEntry>& index,
   std::vector<TileEntry> meeting;
   for (const TileEntry& entry : index) {
     if (entry.along.meets(range)) meeting.push_back(entry);
+  }
+  return meeting;
+}
+
+std::vector<CellEntry> entries_meeting(const std::vector<CellEntry>& index, const Bounds& box) {
+  std::vector<CellEntry> meeting;
+  for (const CellEntry& entry : index) {
+    if (GridCell::numbered(entry.cell).bounds().meets(box)) meeting.push_back(entry);
   }
   return meeting;
 }

@@ -18,8 +18,13 @@ struct SegmentDocument {
   std::map<std::string, std::vector<TileEntry>> tiles;
 };
 
+// The cells of each layer that has any, ascending.
+using AreasDocument = std::map<std::string, std::vector<CellEntry>>;
+
 // `where` (the document's URL) goes into errors. Errors of all: corrupt, also for a document that
 // is about something else than what was asked for.
+Result<std::vector<MapVersion>> parse_catalog_document(std::string_view text,
+                                                       const std::string& where);
 Result<std::vector<NearbySegment>> parse_nearby_document(std::string_view text,
                                                          const std::string& where);
 Result<MapDescription> parse_map_document(std::string_view text, const std::string& where,
@@ -27,10 +32,14 @@ Result<MapDescription> parse_map_document(std::string_view text, const std::stri
 Result<SegmentDocument> parse_segment_document(std::string_view text, const std::string& where,
                                                const MapVersion& version,
                                                const std::string& segment);
+Result<AreasDocument> parse_areas_document(std::string_view text, const std::string& where,
+                                           const MapVersion& version);
 
 // The entries whose along range meets `range`.
 std::vector<TileEntry> entries_meeting(const std::vector<TileEntry>& index,
                                        const AlongRange& range);
+// The entries whose cell meets `box`.
+std::vector<CellEntry> entries_meeting(const std::vector<CellEntry>& index, const Bounds& box);
 
 // Of all tiles of the index.
 std::uint64_t bytes_of(const std::vector<TileEntry>& index);

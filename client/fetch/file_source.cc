@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "client/fetch/cell_request.h"
 #include "client/fetch/documents.h"
 #include "client/fetch/nearby.h"
 #include "schema/store/map_store.h"
@@ -33,11 +34,13 @@ class FileSource : public MapSource {
     return lines_near(*lines_, position, radius_m);
   }
 
+  Result<std::vector<MapVersion>> maps() override { return std::vector<MapVersion>{version_}; }
+
   Result<MapDescription> describe(const MapVersion& version) override {
     const std::lock_guard lock(mutex_);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    return MapDescription{version_, reader_.layers(), reader_.feature_json()};
+    return MapDescription{version_, reader_.layers(), reader_.feature_json(), reader_.bounds()};
   }
 
   Result<SegmentDescription> segment(const MapVersion& version,
@@ -62,6 +65,23 @@ class FileSource : public MapSource {
       Result<Bytes> frame = reader_.tile(segment, layer, entry.index);
       if (!frame.ok()) return frame.error();
       frames.push_back({entry.index, std::move(frame).value()});
+    }
+    return frames;
+  }
+
+  Result<std::vector<CellFrame>> cells(const MapVersion& version, const std::string& layer,
+                                       const Bounds& box) override {
+    const std::lock_guard lock(mutex_);
+    Status checked = check_area_query(box);
+    if (checked.ok()) checked = check(version);
+    if (!checked.ok()) return checked.error();
+    const auto entries = reader_.cells_in(layer, box);
+    if (!entries.ok()) return entries.error();
+    std::vector<CellFrame> frames;
+    for (const CellEntry& entry : *entries) {
+      Result<Bytes> frame = reader_.cell(layer, entry.cell);
+      if (!frame.ok()) return frame.error();
+      frames.push_back({entry.cell, std::move(frame).value()});
     }
     return frames;
   }

@@ -7,7 +7,7 @@
 
 namespace milepost {
 
-FrameCutter::FrameCutter(std::string where, std::vector<TileEntry> expected, Receiver receive)
+FrameCutter::FrameCutter(std::string where, std::vector<ExpectedFrame> expected, Receiver receive)
     : where_(std::move(where)), expected_(std::move(expected)), receive_(std::move(receive)) {}
 
 Status FrameCutter::take(ByteView piece) {
@@ -18,27 +18,27 @@ Status FrameCutter::take(ByteView piece) {
     begun_.insert(begun_.end(), part.begin(), part.end());
     piece = piece.subspan(part.size());
     if (part.size() < lacking) continue;
-    Status completed = complete_tile();
+    Status completed = complete_frame();
     if (!completed.ok()) return completed;
   }
   return ok_status();
 }
 
-Status FrameCutter::complete_tile() {
-  const TileEntry& entry = expected_[received_];
-  if (digest_of(begun_) != entry.digest) {
-    return wrong("the bytes of tile " + std::to_string(entry.index) +
-                 " do not have the digest that the segment's index gives");
+Status FrameCutter::complete_frame() {
+  const ExpectedFrame& frame = expected_[received_];
+  if (digest_of(begun_) != frame.digest) {
+    return wrong("the bytes of tile " + std::to_string(frame.number) +
+                 " do not have the digest that the index gives");
   }
   ++received_;
-  receive_(entry, std::exchange(begun_, {}));
+  receive_(frame.number, std::exchange(begun_, {}));
   return ok_status();
 }
 
 Status FrameCutter::finish() const {
   if (received_ == expected_.size()) return ok_status();
   return wrong("the answer ends before the end of tile " +
-               std::to_string(expected_[received_].index));
+               std::to_string(expected_[received_].number));
 }
 
 Error FrameCutter::wrong(const std::string& what) const {

@@ -12,24 +12,24 @@
 #include <utility>
 
 #include "client/cache/tile_cache.h"
+#include "client/fetch/cell_request.h"
 #include "client/fetch/documents.h"
-#include "client/fetch/frame_cutter.h"
+#include "client/fetch/frame_fetcher.h"
 #include "client/fetch/http_source_parts.h"
 #include "client/fetch/nearby.h"
-#include "client/fetch/retry.h"
+#include "client/fetch/server_requests.h"
 #include "client/fetch/tile_request.h"
 
 namespace milepost {
 namespace {
 
-constexpr std::uint64_t kMaxDocumentBytes = 64ULL << 20U;
 constexpr std::size_t kMaxDocumentsInMemory = 64;
 // For so long after it was unavailable, the server is not asked what the cache knows: a vehicle
 // without a network would wait for the connection to time out at every frame.
 constexpr std::int64_t kServerAway_s = 5;
 
-using SharedDocument = std::shared_ptr<const SegmentDocument>;
-using SharedIndex = std::shared_ptr<const std::vector<TileEntry>>;
+template <class Entry>
+using SharedIndex = std::shared_ptr<const std::vector<Entry>>;
 
 // The shortest digits that read back as the same number; never an exponent, whose + is a space in
 // a URL.
@@ -44,25 +44,33 @@ bool is_unavailable(const Status& status) {
   return !status.ok() && status.error().code == ErrorCode::unavailable;
 }
 
-// The segment documents read lately, parsed. Safe to use from several threads at once.
+// The documents of one kind that were read lately, parsed, by their keys in the cache. Safe to use
+// from several threads at once.
+template <class Document>
 class DocumentMemory {
  public:
-  SharedDocument find(const MapVersion& version, const std::string& segment) const {
+  using Shared = std::shared_ptr<const Document>;
+
+  Shared find(const CacheKey& key) const {
     const std::lock_guard lock(mutex_);
-    const auto found = documents_.find({version.map, version.build, segment});
+    const auto found = documents_.find(parts_of(key));
     return found == documents_.end() ? nullptr : found->second;
   }
 
-  void keep(const MapVersion& version, const std::string& segment, SharedDocument document) {
+  void keep(const CacheKey& key, Shared document) {
     const std::lock_guard lock(mutex_);
     // The cache on disk has them all, so that starting afresh costs little.
     if (documents_.size() >= kMaxDocumentsInMemory) documents_.clear();
-    documents_[{version.map, version.build, segment}] = std::move(document);
+    documents_[parts_of(key)] = std::move(document);
   }
 
  private:
+  static std::array<std::string, 3> parts_of(const CacheKey& key) {
+    return {key.map, key.build, key.segment};
+  }
+
   mutable std::mutex mutex_;
-  std::map<std::array<std::string, 3>, SharedDocument> documents_;
+  std::map<std::array<std::string, 3>, Shared> documents_;
 };
 
 // The lines of the cached segments, made when they are first needed. Safe to use from several
@@ -88,27 +96,16 @@ class LineMemory {
   Lines lines_;
 };
 
-// The tiles of one layer of one segment that a call collects.
-struct TileCollection {
-  std::string segment_url;
-  CacheKey key;  // of the layer's tiles, but for the number
-  SharedIndex index;
-  std::set<std::uint32_t> missing;
-  std::map<std::uint32_t, Bytes> frames;
-};
-
-// Two threads that miss the same tile at the same time may both ask for it.
 class HttpSource : public MapSource {
  public:
   HttpSource(std::string base_url, const HttpSourceSettings& settings, HttpSourceParts parts,
              std::unique_ptr<TileCache> cache)
       : base_url_(std::move(base_url)),
         now_s_(std::move(parts.now_s)),
-        transport_(std::move(parts.transport)),
-        cache_(std::move(cache)) {
-    retry_.attempts = settings.attempts;
-    retry_.sleep = std::move(parts.sleep);
-  }
+        cache_(std::move(cache)),
+        requests_(std::move(parts.transport),
+                  {.attempts = settings.attempts, .sleep = std::move(parts.sleep)}),
+        fetcher_(requests_, *cache_) {}
 
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                    double radius_m) override {
@@ -117,22 +114,21 @@ class HttpSource : public MapSource {
     const std::string url = base_url_ + "/v1/segments?near=" + digits_of(position.latitude_deg) +
                             "," + digits_of(position.longitude_deg) +
                             "&radius_m=" + digits_of(radius_m);
-    std::vector<NearbySegment> known;
-    if (now_s_() < server_away_until_s_) known = segments_known_near(position, radius_m);
-    if (!known.empty()) return known;
-    std::string text;
-    const Status fetched = with_retries(retry_, [&] {
-      Attempt attempt = fetch_text(url, text);
-      if (is_unavailable(attempt.status)) {
-        server_away_until_s_ = now_s_() + kServerAway_s;
-        known = segments_known_near(position, radius_m);
-      }
-      return known.empty() ? attempt : Attempt{};
-    });
-    if (!known.empty()) return known;
-    if (!fetched.ok()) return fetched.error();
-    known_lines_.forget();
-    return parse_nearby_document(text, url);
+    const auto parse = [this, &url](const std::string& text) {
+      known_lines_.forget();
+      return parse_nearby_document(text, url);
+    };
+    return current_list<NearbySegment>(
+        url, [&] { return segments_known_near(position, radius_m); }, parse);
+  }
+
+  Result<std::vector<MapVersion>> maps() override {
+    const std::string url = base_url_ + "/v1/maps";
+    const auto parse = [&url](const std::string& text) {
+      return parse_catalog_document(text, url);
+    };
+    return current_list<MapVersion>(
+        url, [this] { return maps_known(); }, parse);
   }
 
   Result<MapDescription> describe(const MapVersion& version) override {
@@ -143,7 +139,7 @@ class HttpSource : public MapSource {
       if (known.ok() && known->version == version) return known;
       cache_->remove(key);
     }
-    const Result<std::string> text = fetch_document(url);
+    const Result<std::string> text = requests_.document(url);
     if (!text.ok()) return text.error();
     auto description = parse_map_document(*text, url, version.map);
     if (!description.ok()) return description;
@@ -154,44 +150,64 @@ class HttpSource : public MapSource {
 
   Result<SegmentDescription> segment(const MapVersion& version,
                                      const std::string& segment) override {
-    const Result<SharedDocument> document = document_of(version, segment);
+    const auto document = document_of(version, segment);
     if (!document.ok()) return document.error();
     return (*document)->description;
   }
 
   Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
                                        const std::string& layer, const AlongRange& range) override {
-    const Result<SharedIndex> index = index_of(version, segment, layer);
+    const auto index = index_of(version, segment, layer);
     if (!index.ok()) return index.error();
-    TileCollection collection{segment_url(version, segment),
-                              {version.map, version.build, segment, layer, 0},
-                              *index,
-                              {},
-                              {}};
     const std::vector<TileEntry> wanted = entries_meeting(**index, range);
-    take_from_cache(wanted, collection);
     // Its document must not be forgotten before its tiles are.
     cache_->touch(CacheKey::segment_document(version.map, version.build, segment));
-    const Status fetched = fetch_missing(collection);
-    if (!fetched.ok()) return fetched.error();
+    const std::string tiles_url = segment_url(version, segment) + "/tiles";
+    auto found = fetcher_.fetch(
+        {version.map, version.build, segment, layer, 0}, expected_frames(wanted),
+        [&](const auto& missing) { return request_for_tiles(tiles_url, layer, **index, missing); });
+    if (!found.ok()) return found.error();
     std::vector<TileFrame> frames;
     frames.reserve(wanted.size());
     for (const TileEntry& entry : wanted) {
-      frames.push_back({entry.index, std::move(collection.frames[entry.index])});
+      frames.push_back({entry.index, std::move((*found)[entry.index])});
+    }
+    return frames;
+  }
+
+  Result<std::vector<CellFrame>> cells(const MapVersion& version, const std::string& layer,
+                                       const Bounds& box) override {
+    const Status checked = check_area_query(box);
+    if (!checked.ok()) return checked.error();
+    const auto index = cell_index_of(version, layer);
+    if (!index.ok()) return index.error();
+    const std::vector<CellEntry> wanted = entries_meeting(**index, box);
+    // The documents that lead to the cells must not be forgotten before them.
+    cache_->touch(CacheKey::areas_document(version.map, version.build));
+    cache_->touch(CacheKey::map_document(version.map, version.build));
+    const std::string layer_url = areas_url(version) + "/" + escaped_for_url(layer);
+    auto found = fetcher_.fetch(
+        {version.map, version.build, "", layer, 0}, expected_frames(wanted),
+        [&](const auto& missing) { return request_for_cells(layer_url, **index, missing); });
+    if (!found.ok()) return found.error();
+    std::vector<CellFrame> frames;
+    frames.reserve(wanted.size());
+    for (const CellEntry& entry : wanted) {
+      frames.push_back({entry.cell, std::move((*found)[entry.cell])});
     }
     return frames;
   }
 
   Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
                                     const std::string& layer) override {
-    const Result<SharedIndex> index = index_of(version, segment, layer);
+    const auto index = index_of(version, segment, layer);
     if (!index.ok()) return index.error();
     return bytes_of(**index);
   }
 
   SourceCounters counters() const override {
-    return {requests_, bytes_received_, tiles_from_cache_, tiles_fetched_,
-            cache_->counters().failures};
+    return {requests_.made(), requests_.bytes_received(), fetcher_.from_cache(),
+            fetcher_.from_server(), cache_->counters().failures};
   }
 
  private:
@@ -199,19 +215,39 @@ class HttpSource : public MapSource {
     return base_url_ + "/v1/maps/" + escaped_for_url(version.map);
   }
 
-  std::string segment_url(const MapVersion& version, const std::string& segment) const {
-    return map_url(version) + "/builds/" + escaped_for_url(version.build) + "/segments/" +
-           escaped_for_url(segment);
+  std::string build_url(const MapVersion& version) const {
+    return map_url(version) + "/builds/" + escaped_for_url(version.build);
   }
 
-  static std::string tile_url(const TileCollection& collection, const TileRequest& request) {
-    const std::string layer = escaped_for_url(collection.key.layer);
-    const std::string tiles_url = collection.segment_url + "/tiles";
-    if (!request.range.has_value()) {
-      return tiles_url + "/" + layer + "/" + std::to_string(request.expected.front().index);
-    }
-    return tiles_url + "?layer=" + layer + "&from_m=" + digits_of(request.range->from_m) +
-           "&to_m=" + digits_of(request.range->to_m);
+  std::string segment_url(const MapVersion& version, const std::string& segment) const {
+    return build_url(version) + "/segments/" + escaped_for_url(segment);
+  }
+
+  std::string areas_url(const MapVersion& version) const { return build_url(version) + "/areas"; }
+
+  static FrameRequest request_for_tiles(const std::string& tiles_url, const std::string& layer,
+                                        const std::vector<TileEntry>& index,
+                                        const std::set<std::uint32_t>& missing) {
+    const TileRequest request = request_for_first_run(index, missing);
+    const std::string name = escaped_for_url(layer);
+    const std::string url =
+        request.range
+            ? tiles_url + "?layer=" + name + "&from_m=" + digits_of(request.range->from_m) +
+                  "&to_m=" + digits_of(request.range->to_m)
+            : tiles_url + "/" + name + "/" + std::to_string(request.expected.front().index);
+    return {url, expected_frames(request.expected)};
+  }
+
+  static FrameRequest request_for_cells(const std::string& layer_url,
+                                        const std::vector<CellEntry>& index,
+                                        const std::set<std::uint32_t>& missing) {
+    const CellRequest request = request_for_first_block(index, missing);
+    const std::string url =
+        request.box ? layer_url + "?bbox=" + digits_of(request.box->west_deg) + "," +
+                          digits_of(request.box->south_deg) + "," +
+                          digits_of(request.box->east_deg) + "," + digits_of(request.box->north_deg)
+                    : layer_url + "/" + std::to_string(request.expected.front().cell);
+    return {url, expected_frames(request.expected)};
   }
 
   static Error rebuilt(const std::string& url, const MapVersion& asked, const MapVersion& current) {
@@ -221,27 +257,34 @@ class HttpSource : public MapSource {
             "ask for the map's current build"};
   }
 
-  HttpAnswer get(const std::string& url, std::uint64_t limit_bytes, const BodySink& sink) {
-    ++requests_;
-    HttpAnswer answer = transport_->get(url, limit_bytes, sink);
-    bytes_received_ += answer.body_bytes;
-    return answer;
-  }
-
-  Attempt fetch_text(const std::string& url, std::string& text) {
-    text.clear();
-    HttpAnswer answer = get(url, kMaxDocumentBytes, [&](ByteView piece) {
-      text += as_text(piece);
-      return ok_status();
-    });
-    return {std::move(answer.status), answer.retry_after_s};
-  }
-
-  Result<std::string> fetch_document(const std::string& url) {
+  // What the server says now; while it cannot be reached, what is known without it, if anything is.
+  template <class Item>
+  Result<std::vector<Item>> current_list(
+      const std::string& url, const std::function<std::vector<Item>()>& known_items,
+      const std::function<Result<std::vector<Item>>(const std::string& text)>& parse) {
+    std::vector<Item> known;
+    if (now_s_() < server_away_until_s_) known = known_items();
+    if (!known.empty()) return known;
     std::string text;
-    const Status fetched = with_retries(retry_, [&] { return fetch_text(url, text); });
+    const Status fetched = with_retries(requests_.retry(), [&] {
+      Attempt attempt = requests_.try_document(url, text);
+      if (is_unavailable(attempt.status)) {
+        server_away_until_s_ = now_s_() + kServerAway_s;
+        known = known_items();
+      }
+      return known.empty() ? attempt : Attempt{};
+    });
+    if (!known.empty()) return known;
     if (!fetched.ok()) return fetched.error();
-    return text;
+    return parse(text);
+  }
+
+  std::vector<MapVersion> maps_known() {
+    std::vector<MapVersion> maps;
+    for (const CachedDocument& cached : cache_->map_documents()) {
+      maps.push_back({cached.key.map, cached.key.build});
+    }
+    return maps;
   }
 
   std::vector<NearbySegment> segments_known_near(const GeoPoint& position, double radius_m) {
@@ -260,114 +303,88 @@ class HttpSource : public MapSource {
     return lines;
   }
 
-  Result<SharedDocument> document_of(const MapVersion& version, const std::string& segment) {
-    if (SharedDocument known = memory_.find(version, segment)) return known;
-    auto document = cached_document(version, segment);
-    if (document == nullptr) {
-      auto fetched = fetched_document(version, segment);
-      if (!fetched.ok()) return fetched;
-      document = std::move(fetched).value();
+  Result<std::shared_ptr<const SegmentDocument>> document_of(const MapVersion& version,
+                                                             const std::string& segment) {
+    const auto parse = [&](std::string_view text, const std::string& where) {
+      return parse_segment_document(text, where, version, segment);
+    };
+    return document_at(segments_, CacheKey::segment_document(version.map, version.build, segment),
+                       segment_url(version, segment), parse, [this] { known_lines_.forget(); });
+  }
+
+  // A document that never changes: from the memory, else from the cache, else from the server.
+  template <class Document, class Parse, class OnFetched>
+  Result<std::shared_ptr<const Document>> document_at(DocumentMemory<Document>& memory,
+                                                      const CacheKey& key, const std::string& url,
+                                                      const Parse& parse,
+                                                      const OnFetched& on_fetched) {
+    using Shared = std::shared_ptr<const Document>;
+    if (Shared known = memory.find(key)) return known;
+    const auto keep = [&](Document&& document) {
+      const auto shared = std::make_shared<const Document>(std::move(document));
+      memory.keep(key, shared);
+      return Result<Shared>(shared);
+    };
+    if (const auto cached = cache_->find(key)) {
+      Result<Document> document = parse(as_text(*cached), "the cache");
+      if (document.ok()) return keep(std::move(*document));
+      cache_->remove(key);
     }
-    memory_.keep(version, segment, document);
-    return document;
-  }
-
-  SharedDocument cached_document(const MapVersion& version, const std::string& segment) {
-    const CacheKey key = CacheKey::segment_document(version.map, version.build, segment);
-    const auto text = cache_->find(key);
-    if (!text.has_value()) return nullptr;
-    auto document = parse_segment_document(as_text(*text), "the cache", version, segment);
-    if (document.ok()) return std::make_shared<const SegmentDocument>(std::move(*document));
-    cache_->remove(key);
-    return nullptr;
-  }
-
-  Result<SharedDocument> fetched_document(const MapVersion& version, const std::string& segment) {
-    const std::string url = segment_url(version, segment);
-    const Result<std::string> text = fetch_document(url);
+    const Result<std::string> text = requests_.document(url);
     if (!text.ok()) return text.error();
-    auto document = parse_segment_document(*text, url, version, segment);
+    Result<Document> document = parse(*text, url);
     if (!document.ok()) return document.error();
-    cache_->store(CacheKey::segment_document(version.map, version.build, segment), as_bytes(*text));
-    known_lines_.forget();
-    return SharedDocument(std::make_shared<const SegmentDocument>(std::move(*document)));
+    cache_->store(key, as_bytes(*text));
+    on_fetched();
+    return keep(std::move(*document));
   }
 
   // The tile index of a layer; empty if the map has the layer and the segment nothing in it.
-  Result<SharedIndex> index_of(const MapVersion& version, const std::string& segment,
-                               const std::string& layer) {
-    const Result<SharedDocument> document = document_of(version, segment);
+  Result<SharedIndex<TileEntry>> index_of(const MapVersion& version, const std::string& segment,
+                                          const std::string& layer) {
+    const auto document = document_of(version, segment);
     if (!document.ok()) return document.error();
-    const auto found = (*document)->tiles.find(layer);
-    if (found != (*document)->tiles.end()) return SharedIndex(*document, &found->second);
+    return index_in(version, *document, (*document)->tiles, layer);
+  }
+
+  // The cells of a layer; none if the map has the layer and nothing in it.
+  Result<SharedIndex<CellEntry>> cell_index_of(const MapVersion& version,
+                                               const std::string& layer) {
+    const auto parse = [&](std::string_view text, const std::string& where) {
+      return parse_areas_document(text, where, version);
+    };
+    const auto document = document_at(areas_, CacheKey::areas_document(version.map, version.build),
+                                      areas_url(version), parse, [] {});
+    if (!document.ok()) return document.error();
+    return index_in(version, *document, **document, layer);
+  }
+
+  // The index of one layer among those of `document`.
+  template <class Document, class Entry>
+  Result<SharedIndex<Entry>> index_in(const MapVersion& version,
+                                      const std::shared_ptr<const Document>& document,
+                                      const std::map<std::string, std::vector<Entry>>& indices,
+                                      const std::string& layer) {
+    const auto found = indices.find(layer);
+    if (found != indices.end()) return SharedIndex<Entry>(document, &found->second);
     const Result<MapDescription> map = describe(version);
     if (!map.ok()) return map.error();
     if (map->layers.contains(layer)) {
-      return SharedIndex(std::make_shared<const std::vector<TileEntry>>());
+      return SharedIndex<Entry>(std::make_shared<const std::vector<Entry>>());
     }
     return Error{ErrorCode::not_found, map_url(version), "the map has no layer \"" + layer + "\"",
                  "build the map with it"};
   }
 
-  // What the cache lacks becomes `missing`.
-  void take_from_cache(const std::vector<TileEntry>& wanted, TileCollection& collection) {
-    for (const TileEntry& entry : wanted) {
-      CacheKey key = collection.key;
-      key.number = entry.index;
-      if (auto frame = cache_->find(key, entry.digest)) {
-        collection.frames[entry.index] = std::move(*frame);
-        ++tiles_from_cache_;
-      } else {
-        collection.missing.insert(entry.index);
-      }
-    }
-  }
-
-  Status fetch_missing(TileCollection& collection) {
-    while (!collection.missing.empty()) {
-      Status fetched = with_retries(retry_, [&] { return fetch_first_run(collection); });
-      if (!fetched.ok()) return fetched;
-    }
-    return ok_status();
-  }
-
-  Attempt fetch_first_run(TileCollection& collection) {
-    const TileRequest request = request_for_first_run(*collection.index, collection.missing);
-    const std::string url = tile_url(collection, request);
-    const std::size_t missing_before = collection.missing.size();
-    FrameCutter cutter(url, request.expected, [&](const TileEntry& entry, Bytes frame) {
-      take_from_server(entry, std::move(frame), collection);
-    });
-    HttpAnswer answer =
-        get(url, bytes_of(request.expected), [&](ByteView piece) { return cutter.take(piece); });
-    if (answer.status.ok()) return {cutter.finish()};
-    // Whole tiles of an answer that broke off are kept, and the next request asks for the rest.
-    const bool advanced = collection.missing.size() < missing_before;
-    if (advanced && is_unavailable(answer.status)) return {};
-    return {std::move(answer.status), answer.retry_after_s};
-  }
-
-  void take_from_server(const TileEntry& entry, Bytes frame, TileCollection& collection) {
-    ++tiles_fetched_;
-    CacheKey key = collection.key;
-    key.number = entry.index;
-    cache_->store(key, frame);
-    collection.missing.erase(entry.index);
-    collection.frames[entry.index] = std::move(frame);
-  }
-
   const std::string base_url_;
   const std::function<std::int64_t()> now_s_;
-  const std::unique_ptr<Transport> transport_;
   const std::unique_ptr<TileCache> cache_;
-  RetryPolicy retry_;
-  DocumentMemory memory_;
+  ServerRequests requests_;
+  FrameFetcher fetcher_;
+  DocumentMemory<SegmentDocument> segments_;
+  DocumentMemory<AreasDocument> areas_;
   LineMemory known_lines_;
   std::atomic<std::int64_t> server_away_until_s_ = 0;
-  std::atomic<std::uint64_t> requests_ = 0;
-  std::atomic<std::uint64_t> bytes_received_ = 0;
-  std::atomic<std::uint64_t> tiles_from_cache_ = 0;
-  std::atomic<std::uint64_t> tiles_fetched_ = 0;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "schema/base/bytes.h"
+#include "schema/base/cell_grid.h"
 #include "schema/base/range.h"
 #include "schema/base/result.h"
 #include "schema/geo/geodesy.h"
@@ -25,6 +26,7 @@ struct MapDescription {
   MapVersion version;
   std::map<std::string, std::string> layers;  // name -> parameters, a JSON object
   std::string feature_json;                   // feature parameters, a JSON object
+  Bounds bounds = {};                         // of all segments' lines and all cells
 };
 
 // A segment that passes near a position.
@@ -49,13 +51,19 @@ struct TileFrame {
   Bytes frame;
 };
 
+// The stored frame of one cell of the grid: opaque here, decoded by schema/tile.
+struct CellFrame {
+  std::uint32_t cell = 0;
+  Bytes frame;
+};
+
 // Counts since the source was made: what a run cost in transport.
 struct SourceCounters {
-  std::uint64_t requests = 0;        // HTTP requests sent
-  std::uint64_t bytes_received = 0;  // bodies, over HTTP
-  std::uint64_t tiles_from_cache = 0;
-  std::uint64_t tiles_fetched = 0;
-  std::uint64_t cache_failures = 0;  // what the cache could not read or store (a full disk, say)
+  std::uint64_t requests = 0;          // HTTP requests sent
+  std::uint64_t bytes_received = 0;    // bodies, over HTTP
+  std::uint64_t tiles_from_cache = 0;  // cells too
+  std::uint64_t tiles_fetched = 0;     // cells too
+  std::uint64_t cache_failures = 0;    // what the cache could not read or store (a full disk, say)
 };
 
 // Safe to use from several threads at once (the prefetcher uses it beside the localizer).
@@ -67,6 +75,9 @@ class MapSource {
   // An empty list is an answer. Errors: unavailable, corrupt, io.
   virtual Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                            double radius_m) = 0;
+  // The current build of every map of the catalog, by name; those that the cache knows while there
+  // is no server. Errors: unavailable, corrupt, io.
+  virtual Result<std::vector<MapVersion>> maps() = 0;
   // Errors of all below: not_found, gone (the build was replaced), unavailable, corrupt, io.
   virtual Result<MapDescription> describe(const MapVersion& version) = 0;
   virtual Result<SegmentDescription> segment(const MapVersion& version,
@@ -76,6 +87,10 @@ class MapSource {
   virtual Result<std::vector<TileFrame>> tiles(const MapVersion& version,
                                                const std::string& segment, const std::string& layer,
                                                const AlongRange& range) = 0;
+  // The cells of a layer that meet `box`, borders included, ascending. Waits for what is not cached
+  // yet. Errors: also invalid_input (the box is none).
+  virtual Result<std::vector<CellFrame>> cells(const MapVersion& version, const std::string& layer,
+                                               const Bounds& box) = 0;
   // Bytes of all tiles of the layer on that segment: what a vehicle must hold for it.
   virtual Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
                                             const std::string& layer) = 0;

@@ -7,17 +7,36 @@
 
 namespace milepost {
 
-// A box of latitude and longitude, WGS84.
+// A box of latitude and longitude, WGS84. Where west_deg is more than east_deg, it goes across
+// longitude 180.
 struct Bounds {
   double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
 
-  bool meets(const Bounds& other) const {
-    return west_deg <= other.east_deg && other.west_deg <= east_deg &&
-           south_deg <= other.north_deg && other.south_deg <= north_deg;
+  // South is not more than north, all are numbers of degrees on the Earth.
+  bool is_valid() const {
+    const auto within = [](double degrees, double limit) { return std::abs(degrees) <= limit; };
+    return within(west_deg, 180) && within(east_deg, 180) && within(south_deg, 90) &&
+           within(north_deg, 90) && south_deg <= north_deg;
   }
+  bool crosses_180() const { return west_deg > east_deg; }
+
+  // Borders included. Longitudes are compared as numbers: 180 is not -180.
+  bool meets(const Bounds& other) const {
+    return south_deg <= other.north_deg && other.south_deg <= north_deg && longitudes_meet(other);
+  }
+  // REQUIRES: neither crosses longitude 180.
   Bounds joined(const Bounds& other) const {
     return {std::min(west_deg, other.west_deg), std::min(south_deg, other.south_deg),
             std::max(east_deg, other.east_deg), std::max(north_deg, other.north_deg)};
+  }
+
+ private:
+  bool longitudes_meet(const Bounds& other) const {
+    const bool begins_in_time = west_deg <= other.east_deg;
+    const bool ends_late_enough = other.west_deg <= east_deg;
+    if (crosses_180() && other.crosses_180()) return true;
+    if (crosses_180() || other.crosses_180()) return begins_in_time || ends_late_enough;
+    return begins_in_time && ends_late_enough;
   }
 };
 
@@ -40,7 +59,8 @@ struct GridCell {
   static GridCell at(double latitude_deg, double longitude_deg) {
     const auto index = [](double degrees, std::uint32_t count) {
       const double from_zero = std::floor(degrees * kCellsPerDegree);
-      const auto below = std::min(static_cast<std::uint32_t>(from_zero + count / 2), count - 1);
+      const std::uint32_t middle = count / 2;
+      const auto below = std::min(static_cast<std::uint32_t>(from_zero + middle), count - 1);
       // The product of a border and the cells of a degree may be rounded to below the border.
       return below + 1 < count && border_deg(below + 1, count) <= degrees ? below + 1 : below;
     };
@@ -55,7 +75,8 @@ struct GridCell {
  private:
   // Rounded once, so that a border is the same number however it is reached.
   static double border_deg(std::uint32_t index, std::uint32_t count) {
-    return (double{1} * index - count / 2) / kCellsPerDegree;
+    const std::uint32_t middle = count / 2;
+    return (double{1} * index - middle) / kCellsPerDegree;
   }
 };
 

@@ -46,6 +46,13 @@ Json tiles_json(const std::map<std::string, std::vector<TileEntry>>& layers) {
   return json;
 }
 
+Json cell_json(const CellEntry& cell) {
+  Json json = {{"cell", cell.cell}};
+  json.update(bounds_json(GridCell::numbered(cell.cell).bounds()));
+  json.update({{"items", cell.items}, {"bytes", cell.bytes}, {"digest", cell.digest}});
+  return json;
+}
+
 }  // namespace
 
 Result<std::string> map_document(const std::string& name, const MapReader& reader,
@@ -82,6 +89,16 @@ std::string segment_document(const std::string& map, const std::string& build,
                      {"line", line_json(segment.vertices)},
                      {"successors", segment.successors},
                      {"tiles", tiles_json(tiles)}};
+  return json.dump();
+}
+
+std::string areas_document(const std::string& map, const std::string& build,
+                           const std::map<std::string, std::vector<CellEntry>>& cells) {
+  Json layers = Json::object();
+  for (const auto& [layer, index] : cells) {
+    for (const CellEntry& cell : index) layers[layer].push_back(cell_json(cell));
+  }
+  const Json json = {{"map", map}, {"build", build}, {"cells", std::move(layers)}};
   return json.dump();
 }
 

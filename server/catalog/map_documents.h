@@ -1,4 +1,4 @@
-// The JSON documents of a map and of a segment (PROTOCOL.md).
+// The JSON documents of a map, of a segment and of a map's cells (PROTOCOL.md).
 #pragma once
 
 #include <map>
@@ -17,5 +17,9 @@ Result<std::string> map_document(const std::string& name, const MapReader& reade
 std::string segment_document(const std::string& map, const std::string& build,
                              const StoredSegment& segment,
                              const std::map<std::string, std::vector<TileEntry>>& tiles);
+
+// The document of GET /v1/maps/{map}/builds/{build}/areas: the layers that have cells.
+std::string areas_document(const std::string& map, const std::string& build,
+                           const std::map<std::string, std::vector<CellEntry>>& cells);
 
 }  // namespace milepost::server

@@ -14,6 +14,13 @@ Result<RouteLine> line_of(const StoredSegment& segment) {
   return RouteLine::from_vertices(std::move(points));
 }
 
+// The store has checked the digest. The length was promised to the client before.
+Result<Bytes> of_length(Result<Bytes> frame, std::uint64_t bytes, const std::string& where) {
+  if (!frame || frame->size() == bytes) return frame;
+  return Error{ErrorCode::corrupt, where, "the length is not the one in the index",
+               "replace the file by a good copy, or build the map anew"};
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const ServedMap>> ServedMap::open(const std::string& name,
@@ -41,6 +48,8 @@ Status ServedMap::load(const MapReader& reader) {
     box_ = segments_.size() == 1 ? segment.box : DegreeBox::joined(box_, segment.box);
     length_m += segment.length_m;
   }
+  const Status cells_loaded = load_cells(reader);
+  if (!cells_loaded) return cells_loaded;
   Result<std::string> text = map_document(name_, reader, length_m);
   if (!text) return text.error();
   document_ = document_of(std::move(*text));
@@ -68,19 +77,26 @@ Status ServedMap::load_segment(const MapReader& reader, const std::string& id) {
   return ok_status();
 }
 
+Status ServedMap::load_cells(const MapReader& reader) {
+  for (const auto& [layer, parameters] : layers_) {
+    Result<std::vector<CellEntry>> index = reader.cell_index(layer);
+    if (!index) return index.error();
+    cells_[layer] = std::move(*index);
+  }
+  areas_ = document_of(areas_document(name_, build_, cells_));
+  return ok_status();
+}
+
 Result<Bytes> ServedMap::tile(const std::string& segment, const std::string& layer,
                               const TileEntry& entry) const {
-  Result<Bytes> frame = readers_->lend()->tile(segment, layer, entry.index);
-  if (!frame) return frame;
-  // The store has checked the digest. The length was promised to the client before.
-  if (frame->size() != entry.bytes) {
-    return Error{ErrorCode::corrupt,
-                 file_.string() + ", segment " + segment + ", layer " + layer + ", tile " +
-                     std::to_string(entry.index),
-                 "the length is not the one in the tile index",
-                 "replace the file by a good copy, or build the map anew"};
-  }
-  return frame;
+  return of_length(readers_->lend()->tile(segment, layer, entry.index), entry.bytes,
+                   file_.string() + ", segment " + segment + ", layer " + layer + ", tile " +
+                       std::to_string(entry.index));
+}
+
+Result<Bytes> ServedMap::cell(const std::string& layer, const CellEntry& entry) const {
+  return of_length(readers_->lend()->cell(layer, entry.cell), entry.bytes,
+                   file_.string() + ", layer " + layer + ", cell " + std::to_string(entry.cell));
 }
 
 }  // namespace milepost::server

@@ -1,4 +1,4 @@
-// One map as requests need it: lines, documents and the tile index in memory, tiles on the disk.
+// One map as requests need it: lines, documents and the indices in memory, tiles on the disk.
 #pragma once
 
 #include <filesystem>
@@ -35,18 +35,24 @@ class ServedMap {
   const std::string& name() const { return name_; }
   const std::string& build() const { return build_; }
   const std::map<std::string, ServedSegment>& segments() const { return segments_; }
+  // Layer -> index, ascending; every layer, also those without cells.
+  const std::map<std::string, std::vector<CellEntry>>& cells() const { return cells_; }
   const Document& document() const { return document_; }
-  const DegreeBox& box() const { return box_; }  // of all segments' lines
+  const Document& areas() const { return areas_; }  // the index of the cells
+  const DegreeBox& box() const { return box_; }     // of all segments' lines
 
   // The stored frame of a tile, checked against its entry in the index.
   // Errors: corrupt (the frame is not the one of the index), io.
   Result<Bytes> tile(const std::string& segment, const std::string& layer,
                      const TileEntry& entry) const;
+  // The same for a cell.
+  Result<Bytes> cell(const std::string& layer, const CellEntry& entry) const;
 
  private:
   ServedMap() = default;
   Status load(const MapReader& reader);
   Status load_segment(const MapReader& reader, const std::string& id);
+  Status load_cells(const MapReader& reader);
 
   // Constant after construction.
   std::string name_;
@@ -54,8 +60,10 @@ class ServedMap {
   std::filesystem::path file_;
   std::map<std::string, std::string> layers_;
   std::map<std::string, ServedSegment> segments_;
+  std::map<std::string, std::vector<CellEntry>> cells_;
   DegreeBox box_;
   Document document_;
+  Document areas_;
   std::unique_ptr<ReaderPool> readers_;  // synchronizes itself
 };
 

@@ -1,4 +1,4 @@
-// The body of an answer, piece by piece: memory holds one tile at a time.
+// The body of an answer, piece by piece: memory holds one tile or cell at a time.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@ class BodyReader {
   BodyReader(const Response& response, bool wanted);
 
   bool done() const { return given_ == pieces_; }
-  // The next piece: the whole text, or one tile; empty when done. Valid until the next call.
-  // Errors: those of ServedMap::tile.
+  // The next piece: the whole text, or one tile or cell; empty when done. Valid until the next
+  // call. Errors: those of ServedMap::tile and cell.
   Result<ByteView> next();
 
  private:
   const Response* response_;
   std::size_t pieces_ = 0;
   std::size_t given_ = 0;
-  Bytes tile_;
+  Bytes frame_;
 };
 
 }  // namespace milepost::server

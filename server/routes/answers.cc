@@ -17,6 +17,16 @@ Response text(const Document& document, const char* content_type, const char* ca
   return response;
 }
 
+template <class List>
+Response frames(List list, const std::string& digest) {
+  Response response;
+  response.headers = {{"Content-Type", "application/octet-stream"},
+                      {"Cache-Control", kImmutable},
+                      {"ETag", entity_tag(digest)}};
+  response.body = std::move(list);
+  return response;
+}
+
 }  // namespace
 
 Response plain_text(std::string text) {
@@ -35,12 +45,11 @@ Response current_json(const Document& document) { return current_text(document, 
 Response immutable_json(const Document& document) { return text(document, kJson, kImmutable); }
 
 Response immutable_tiles(TileList tiles, const std::string& digest) {
-  Response response;
-  response.headers = {{"Content-Type", "application/octet-stream"},
-                      {"Cache-Control", kImmutable},
-                      {"ETag", entity_tag(digest)}};
-  response.body = std::move(tiles);
-  return response;
+  return frames(std::move(tiles), digest);
+}
+
+Response immutable_cells(CellList cells, const std::string& digest) {
+  return frames(std::move(cells), digest);
 }
 
 }  // namespace milepost::server

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "schema/base/digest.h"
 #include "server/catalog/document.h"
 #include "server/response.h"
 
@@ -15,7 +17,16 @@ Response current_text(const Document& document, const char* content_type);
 Response current_json(const Document& document);
 // JSON that never changes under its address.
 Response immutable_json(const Document& document);
-// Stored tiles, which never change under their address. `digest` stands for all of them.
+// Stored tiles or cells, which never change under their address. `digest` stands for all of them.
 Response immutable_tiles(TileList tiles, const std::string& digest);
+Response immutable_cells(CellList cells, const std::string& digest);
+
+// The digest that stands for entries of an index.
+template <class Entry>
+std::string digest_of_all(const std::vector<const Entry*>& entries) {
+  FieldDigest digest;
+  for (const Entry* entry : entries) digest.add(entry->digest);
+  return digest.finish();
+}
 
 }  // namespace milepost::server

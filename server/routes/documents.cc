@@ -22,4 +22,11 @@ Result<Response> answer_segment(const Call& call) {
   return immutable_json((*segment)->document);
 }
 
+Result<Response> answer_areas(const Call& call) {
+  const Result<std::shared_ptr<const ServedMap>> map =
+      find_build(call.catalog, call.path[0], call.path[1]);
+  if (!map) return map.error();
+  return immutable_json((*map)->areas());
+}
+
 }  // namespace milepost::server

@@ -19,6 +19,37 @@ Error absent(const std::string& what, const std::string& mend) {
   return {ErrorCode::not_found, what, "does not exist", mend};
 }
 
+// The index of a layer.
+template <class Entry>
+Result<const std::vector<Entry>*> find_index(
+    const std::map<std::string, std::vector<Entry>>& layers, const std::string& layer) {
+  const Status form = check_id("layer", layer);
+  if (!form) return form.error();
+  const auto found = layers.find(layer);
+  if (found == layers.end()) {
+    return absent("layer '" + layer + "'", "the map's document lists its layers");
+  }
+  return &found->second;
+}
+
+// The entry of an index, ascending by `number_of`, with the number that is written as `text`.
+template <class Entry>
+Result<const Entry*> find_entry(const std::string& kind, const std::vector<Entry>& index,
+                                std::uint32_t Entry::*number_of, const std::string& text,
+                                const std::string& mend) {
+  std::uint32_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  // One tile has one address, so "07" is none.
+  if (error != std::errc() || stop != end || (text.size() > 1 && text.front() == '0')) {
+    return Error{ErrorCode::invalid_input, kind + " '" + text + "'", "is not the form of a number",
+                 "write a whole number without leading zeros"};
+  }
+  const auto found = std::ranges::lower_bound(index, number, {}, number_of);
+  if (found == index.end() || (*found).*number_of != number) return absent(kind + " " + text, mend);
+  return &*found;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const ServedMap>> find_map(const Catalog& catalog, const std::string& name) {
@@ -56,31 +87,20 @@ Result<const ServedSegment*> find_segment(const ServedMap& map, const std::strin
 
 Result<const std::vector<TileEntry>*> find_layer(const ServedSegment& segment,
                                                  const std::string& layer) {
-  const Status form = check_id("layer", layer);
-  if (!form) return form.error();
-  const auto found = segment.tiles.find(layer);
-  if (found == segment.tiles.end()) {
-    return absent("layer '" + layer + "'", "the map's document lists its layers");
-  }
-  return &found->second;
+  return find_index(segment.tiles, layer);
 }
 
 Result<const TileEntry*> find_tile(const std::vector<TileEntry>& tiles, const std::string& index) {
-  std::uint32_t number = 0;
-  const char* end = index.data() + index.size();
-  const auto [stop, error] = std::from_chars(index.data(), end, number);
-  // One tile has one address, so "07" is none.
-  if (error != std::errc() || stop != end || (index.size() > 1 && index.front() == '0')) {
-    return Error{ErrorCode::invalid_input, "tile '" + index + "'", "is not the form of an index",
-                 "write a whole number without leading zeros"};
-  }
-  const auto found = std::lower_bound(
-      tiles.begin(), tiles.end(), number,
-      [](const TileEntry& tile, std::uint32_t wanted) { return tile.index < wanted; });
-  if (found == tiles.end() || found->index != number) {
-    return absent("tile " + index, "the segment's document lists its tiles");
-  }
-  return &*found;
+  return find_entry("tile", tiles, &TileEntry::index, index,
+                    "the segment's document lists its tiles");
+}
+
+Result<const std::vector<CellEntry>*> find_cells(const ServedMap& map, const std::string& layer) {
+  return find_index(map.cells(), layer);
+}
+
+Result<const CellEntry*> find_cell(const std::vector<CellEntry>& cells, const std::string& number) {
+  return find_entry("cell", cells, &CellEntry::cell, number, "…/areas lists the cells");
 }
 
 }  // namespace milepost::server

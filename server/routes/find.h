@@ -21,5 +21,7 @@ Result<const ServedSegment*> find_segment(const ServedMap& map, const std::strin
 Result<const std::vector<TileEntry>*> find_layer(const ServedSegment& segment,
                                                  const std::string& layer);
 Result<const TileEntry*> find_tile(const std::vector<TileEntry>& tiles, const std::string& index);
+Result<const std::vector<CellEntry>*> find_cells(const ServedMap& map, const std::string& layer);
+Result<const CellEntry*> find_cell(const std::vector<CellEntry>& cells, const std::string& number);
 
 }  // namespace milepost::server

@@ -15,5 +15,8 @@ Result<Response> answer_segments_near(const Call& call);  // /v1/segments?near=L
 Result<Response> answer_segment(const Call& call);        // …/segments/{segment}
 Result<Response> answer_tile_range(const Call& call);     // …/tiles?layer=L&from_m=A&to_m=B
 Result<Response> answer_tile(const Call& call);           // …/tiles/{layer}/{index}
+Result<Response> answer_areas(const Call& call);          // …/areas
+Result<Response> answer_cell_range(const Call& call);     // …/areas/{layer}?bbox=W,S,E,N
+Result<Response> answer_cell(const Call& call);           // …/areas/{layer}/{cell}
 
 }  // namespace milepost::server

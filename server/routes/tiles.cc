@@ -1,7 +1,6 @@
 // Routes to stored tiles: a range of them, or one.
 #include <cmath>
 
-#include "schema/base/digest.h"
 #include "server/routes/answers.h"
 #include "server/routes/find.h"
 #include "server/routes/routes.h"
@@ -24,12 +23,6 @@ Result<AlongRange> range_of(const Query& query) {
                  "from_m is greater than to_m", "swap the two"};
   }
   return AlongRange{*from_m, *to_m};
-}
-
-std::string digest_of_all(const std::vector<const TileEntry*>& tiles) {
-  FieldDigest digest;
-  for (const TileEntry* tile : tiles) digest.add(tile->digest);
-  return digest.finish();
 }
 
 }  // namespace

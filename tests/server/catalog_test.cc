@@ -136,6 +136,20 @@ TEST_F(CatalogTest, TileOfAnotherLengthThanPromisedIsCorrupt) {
   EXPECT_THAT(tile.error().line(), HasSubstr("town.map, segment s1, layer tracklets, tile 1"));
 }
 
+TEST_F(CatalogTest, CellOfAnotherLengthThanPromisedIsCorrupt) {
+  const TownMap town = write_town(folder_.path() / "town.map");
+  const auto catalog = open();
+  ASSERT_TRUE(catalog.ok());
+  const auto& map = (*catalog)->maps().at("town");
+  CellEntry entry = map->cells().at("walls")[1];
+  EXPECT_EQ(*map->cell("walls", entry), town.cells[1]);
+  entry.bytes += 1;
+  const Result<Bytes> cell = map->cell("walls", entry);
+  ASSERT_FALSE(cell.ok());
+  EXPECT_THAT(cell.error().line(),
+              HasSubstr("town.map, layer walls, cell " + std::to_string(entry.cell)));
+}
+
 // The reach of a box is checked against geodesics.
 TEST(DegreeBoxTest, NeverRulesOutWhatIsWithin) {
   const std::vector<GeoPoint> corners = {{0, 0, 0},      {60, 10, 0},      {-60, -10, 0},

@@ -38,6 +38,7 @@ class ServerTest : public testing::Test {
   std::string segment_path() const {
     return "/v1/maps/town/builds/" + town_.build + "/segments/s1";
   }
+  std::string areas_path() const { return "/v1/maps/town/builds/" + town_.build + "/areas"; }
   std::string range_path(int from_m, int to_m) const {
     return segment_path() + "/tiles?layer=tracklets&from_m=" + std::to_string(from_m) +
            "&to_m=" + std::to_string(to_m);
@@ -84,6 +85,27 @@ TEST_F(ServerTest, SendsRangesAndTilesAsTheyAreStored) {
   const Reply empty = fetch(port_, range_path(900, 901));
   EXPECT_EQ(empty.status, 200);
   EXPECT_EQ(empty.header("content-length"), "0");
+}
+
+TEST_F(ServerTest, SendsCellsAsTheyAreStored) {
+  start(300'000);
+  const Reply box = fetch(port_, areas_path() + "/walls?bbox=8,49,8.01,49.004");
+  EXPECT_EQ(box.status, 200);
+  EXPECT_EQ(box.header("content-type"), "application/octet-stream");
+  EXPECT_EQ(box.body, std::string(as_text(town_.cells[0])) + std::string(as_text(town_.cells[1])));
+  const std::string cell_path = areas_path() + "/walls/" + std::to_string(kTownCells[2]);
+  EXPECT_EQ(fetch(port_, cell_path).body, as_text(town_.cells[2]));
+  const Reply empty = fetch(port_, areas_path() + "/walls?bbox=1,1,2,2");
+  EXPECT_EQ(empty.status, 200);
+  EXPECT_EQ(empty.header("content-length"), "0");
+
+  Connection connection(port_);
+  connection.send("HEAD " + cell_path + " HTTP/1.1\r\nHost: test\r\n\r\n");
+  const Reply head = connection.receive(true);
+  EXPECT_EQ(head.status, 200);
+  EXPECT_EQ(head.header("content-length"), std::to_string(town_.cells[2].size()));
+  connection.send_get(cell_path, "If-None-Match: " + head.header("etag") + "\r\n");
+  EXPECT_EQ(connection.receive().status, 304);
 }
 
 TEST_F(ServerTest, KeepsTheConnectionOpen) {

@@ -37,6 +37,12 @@ Bytes arbitrary_bytes(std::size_t count, unsigned seed) {
   return bytes;
 }
 
+std::string finished(MapWriter& writer) {
+  const Result<std::string> build = writer.finish();
+  if (!build) throw std::runtime_error(build.error().line());
+  return *build;
+}
+
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
@@ -64,10 +70,24 @@ TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes, u
     town.frames.push_back(arbitrary_bytes(frame_bytes + i, seed * 100 + i));
     must(writer->add_tile("s1", "tracklets", i, ranges[i], 10 + i, town.frames.back()));
   }
-  const Result<std::string> build = writer->finish();
-  if (!build) throw std::runtime_error(build.error().line());
-  town.build = *build;
+  for (const std::uint32_t cell : kTownCells) {
+    const auto i = static_cast<unsigned>(town.cells.size());
+    town.cells.push_back(arbitrary_bytes(frame_bytes + i, seed * 100 + 50 + i));
+    must(writer->add_cell("walls", cell, 20 + i, town.cells.back()));
+  }
+  town.build = finished(*writer);
   return town;
+}
+
+std::string write_walls(const std::filesystem::path& file,
+                        const std::vector<std::uint32_t>& cells) {
+  Result<MapWriter> writer = MapWriter::create(file);
+  if (!writer) throw std::runtime_error(writer.error().line());
+  must(writer->add_layer("walls", R"({"items": "walls"})"));
+  for (const std::uint32_t cell : cells) {
+    must(writer->add_cell("walls", cell, 1, arbitrary_bytes(4, cell)));
+  }
+  return finished(*writer);
 }
 
 std::shared_ptr<const Catalog> open_catalog(const std::filesystem::path& folder, unsigned readers) {

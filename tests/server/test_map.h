@@ -23,18 +23,27 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// The cell whose south-west corner is 49 N 8 E, the one to its east and the one to its north.
+inline constexpr std::uint32_t kTownCells[] = {
+    27800 * kCellColumns + 37600, 27800 * kCellColumns + 37601, 27801 * kCellColumns + 37600};
+
 // Segment "s1" runs north from 49 N 8 E for 200 m, "s2" east from there. Layer "tracklets" has
 // tiles 0 to 3 on s1 ([0, 60], [50, 110], [100, 160], [150, 200]) and none on s2; layer "walls" has
-// no tile.
+// no tile, but kTownCells.
 struct TownMap {
   std::string build;
   std::vector<Bytes> frames;  // of s1's tracklets, by index
+  std::vector<Bytes> cells;   // of kTownCells
 };
 
 // Writes the map. `frame_bytes` is the length of each stored frame, whose content is arbitrary and
 // differs with `seed`.
 TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes = 1000,
                    unsigned seed = 1);
+
+// Writes a map with nothing but a layer "walls" of these cells, each of them four bytes.
+// Returns its build.
+std::string write_walls(const std::filesystem::path& file, const std::vector<std::uint32_t>& cells);
 
 // Opens a catalog that must be good.
 std::shared_ptr<const Catalog> open_catalog(const std::filesystem::path& folder,

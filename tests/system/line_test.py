@@ -1,6 +1,9 @@
 """The whole line: drive -> map -> server -> client over HTTP -> fixes, on the simulated street."""
+import contextlib
+import hashlib
 import json
 import socket
+import sqlite3
 import struct
 import zlib
 
@@ -28,6 +31,18 @@ def black_png(width, height):
     rows = bytes((1 + width) * height)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def add_walls(map_file):
+    """Adds a layer of walls with a cell, whose bytes nobody reads here; the map's build changes."""
+    frame = bytes(100)
+    digest = hashlib.blake2b(frame, digest_size=16).hexdigest()
+    with contextlib.closing(sqlite3.connect(map_file)) as store, store:
+        store.execute("INSERT INTO layers VALUES ('walls', '{\"items\": \"walls\"}')")
+        number, = store.execute("SELECT max(id) + 1 FROM frames").fetchone()
+        store.execute("INSERT INTO frames VALUES (?, ?)", (number, frame))
+        store.execute("INSERT INTO cells VALUES ('walls', 2001637680, 3, 100, ?, ?)", (digest, number))
+        store.execute("UPDATE meta SET value = ? WHERE key = 'build'", (digest,))
 
 
 class Line(CommandTest):
@@ -100,6 +115,36 @@ class Line(CommandTest):
         for method in METHODS:
             self.assertIn(f"<th scope=\"row\">{method}", report)
         self.assertNotRegex(report, r"(src|href)=\"http")  # self-contained
+
+    def test_walls_beside_the_tracklets_change_nothing(self):
+        self.build_map()
+        self.expect_done(self.localize("--map", self.map))
+        alone = self.expect_fixes()
+        summaries = [self.summary_of_evaluation()]
+        add_walls(self.map)
+        walls = run(commands.MAPPER, "export", "--map", self.map, "--layer", "walls", "--geojson", self.folder / "w.json")
+        self.expect_refused(walls, 1, "layer walls, cell 2001637680")  # it is there
+        self.expect_done(self.localize("--map", self.map))
+        beside = self.expect_fixes()
+        with Server(self.maps) as server:
+            self.expect_done(self.localize(*self.over_http(server.url)))
+        by_http = self.expect_fixes()
+        for rows in (alone, beside, by_http):
+            for row in rows:
+                row.pop("latency_ms")
+        self.assertEqual(beside, alone)
+        self.assertEqual(by_http, alone)
+        summaries.append(self.summary_of_evaluation())
+        for summary in summaries:
+            for key in ("latency_ms_p50", "latency_ms_p99"):
+                summary.pop(key)
+        self.assertEqual(*summaries)
+
+    def summary_of_evaluation(self):
+        out = self.folder / "results"
+        self.expect_done(run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", out))
+        summary, = json.loads((out / "summary.json").read_text())
+        return summary
 
     def test_estimates(self):
         self.build_map("--lab")

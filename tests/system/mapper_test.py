@@ -1,4 +1,5 @@
 """milepost-mapper build: the same bytes for any number of threads, and never half a map."""
+import json
 import os
 import signal
 import subprocess
@@ -41,6 +42,22 @@ class Mapper(CommandTest):
         config.write_text("size-target-kb-a-m = 0.3\n")
         self.expect_refused(self.build(STREET / "street-map", self.map, "--config", config), 2, "size-target-kb-a-m")
 
+    def test_export_of_the_road_network(self):
+        self.expect_done(self.build(STREET / "street-map", self.map))
+        roads = self.folder / "roads.geojson"
+        self.expect_done(run(MAPPER, "export", "--map", self.map, "--layer", "segments", "--geojson", roads))
+        collection = json.loads(roads.read_text())
+        self.assertEqual(collection["type"], "FeatureCollection")
+        feature, = collection["features"]
+        self.assertEqual(feature["properties"]["id"], "street-map")
+        self.assertEqual(feature["properties"]["successors"], [])
+        self.assertAlmostEqual(feature["properties"]["length_m"], 60, delta=3)
+        self.assertEqual(feature["geometry"]["type"], "LineString")
+        self.assertGreater(len(feature["geometry"]["coordinates"]), 20)
+        self.expect_refused(run(MAPPER, "export", "--map", self.map, "--layer", "walls", "--geojson", roads), 1,
+                            "no layer 'walls'", "segments, tracklets")
+        self.assertEqual(json.loads(roads.read_text()), collection)
+
     def start_build(self):
         return subprocess.Popen([MAPPER, "build", "--drive", str(STREET / "street-map"), "--map", str(self.map),
                                  "--jobs", "1"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -81,7 +98,8 @@ class Mapper(CommandTest):
             self.expect_done(run(MAPPER, *words))
 
     def test_help_teaches(self):
-        self.expect_teaches(run(MAPPER, "--help"), "build")
+        self.expect_teaches(run(MAPPER, "--help"), "build", "export")
+        self.expect_teaches(run(MAPPER, "export", "--help"), "--layer NAME", "--geojson FILE", "walls.geojson")
         self.expect_teaches(run(MAPPER, "build", "--help"), "--drive DIR", "--max-features N", "0 to 1000000, default 1000")
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")

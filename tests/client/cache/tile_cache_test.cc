@@ -267,6 +267,35 @@ TEST_F(TileCacheTest, DocumentsOfTheBuildUsedLastAreListed) {
   EXPECT_THAT(contents, ::testing::UnorderedElementsAre("new s1", "new s2", "village s1"));
 }
 
+TEST_F(TileCacheTest, MapDocumentsOfTheBuildUsedLastAreListed) {
+  const auto cache = open();
+  cache->store(CacheKey::map_document("village", "only"), as_bytes("village"));
+  cache->store(CacheKey::map_document("town", "build 2"), as_bytes("new"));
+  ++now_s_;
+  cache->store(CacheKey::map_document("town", "build 1"), as_bytes("old"));
+  ++now_s_;
+  cache->store(CacheKey::areas_document("town", "build 1"), as_bytes("the old cells"));
+  cache->store(CacheKey::segment_document("town", "build 1", "s1"), as_bytes("old s1"));
+  cache->store({"town", "build 1", "", "walls", 0}, as_bytes("a cell"));
+  cache->touch(CacheKey::map_document("town", "build 2"));
+  std::vector<std::string> contents;
+  for (const CachedDocument& document : cache->map_documents()) {
+    contents.push_back(document.key.map + " " + document.key.build + " " + document.content);
+  }
+  EXPECT_THAT(contents, ElementsAre("town build 2 new", "village only village"));
+}
+
+TEST_F(TileCacheTest, ACellAndADocumentOfTheMapAreDifferentThings) {
+  const auto cache = open();
+  const CacheKey cell{"town", "build", "", "walls", 1};
+  cache->store(cell, as_bytes("cell"));
+  cache->store(CacheKey::areas_document("town", "build"), as_bytes("index of cells"));
+  cache->store(CacheKey::map_document("town", "build"), as_bytes("map"));
+  EXPECT_EQ(text_of(cache->find(cell)), "cell");
+  EXPECT_EQ(text_of(cache->find(CacheKey::areas_document("town", "build"))), "index of cells");
+  EXPECT_EQ(text_of(cache->find(CacheKey::map_document("town", "build"))), "map");
+}
+
 TEST_F(TileCacheTest, ADamagedDocumentIsNotListed) {
   open()->store(CacheKey::segment_document("town", "new", "s1"), as_bytes("good"));
   change_database("UPDATE entries SET content = x'626164'");

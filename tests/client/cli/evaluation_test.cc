@@ -33,6 +33,9 @@ class RoadMap : public MapSource {
                                                    double /*radius_m*/) override {
     return std::vector<NearbySegment>{{{"town", "b1"}, "road", 0, 0, kRoadM}};
   }
+  Result<std::vector<MapVersion>> maps() override {
+    return std::vector<MapVersion>{{"town", "b1"}};
+  }
   Result<MapDescription> describe(const MapVersion& version) override {
     return MapDescription{version, {}, ""};
   }
@@ -44,6 +47,10 @@ class RoadMap : public MapSource {
                                        const std::string& /*segment*/, const std::string& /*layer*/,
                                        const AlongRange& /*range*/) override {
     return std::vector<TileFrame>();
+  }
+  Result<std::vector<CellFrame>> cells(const MapVersion& /*version*/, const std::string& /*layer*/,
+                                       const Bounds& /*box*/) override {
+    return std::vector<CellFrame>();
   }
   Result<std::uint64_t> layer_bytes(const MapVersion& /*version*/, const std::string& /*segment*/,
                                     const std::string& /*layer*/) override {

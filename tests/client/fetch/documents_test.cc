@@ -124,6 +124,63 @@ TEST(SegmentDocument, TextThatIsNoDocumentIsRefused) {
   }
 }
 
+TEST(AreasDocument, IsRead) {
+  const FakeMap map;
+  const auto document = parse_areas_document(map.areas_document(), kWhere, map.version());
+  ASSERT_TRUE(document.ok()) << document.error().line();
+  ASSERT_EQ(document->size(), 1U);
+  EXPECT_EQ(document->at("walls"), map.cells);
+  EXPECT_EQ(document->at("walls")[4].bytes, 540U);
+  EXPECT_EQ(document->at("walls")[4].items, 10U);
+}
+
+TEST(AreasDocument, EveryWrongFieldIsRefused) {
+  const FakeMap map;
+  const auto first_cell = [](json& d) -> json& { return d["cells"]["walls"][0]; };
+  const Changes changes = {
+      {"another map", [](json& d) { d["map"] = "village"; }},
+      {"another build", [](json& d) { d["build"] = std::string(32, 'b'); }},
+      {"no cells", [](json& d) { d.erase("cells"); }},
+      {"cells a list", [](json& d) { d["cells"] = json::array(); }},
+      {"layer an object", [](json& d) { d["cells"]["walls"] = json::object(); }},
+      {"layer's name a path", [](json& d) { d["cells"]["../x"] = json::array(); }},
+      {"cell a number", [&](json& d) { first_cell(d) = 1; }},
+      {"number negative", [&](json& d) { first_cell(d)["cell"] = -1; }},
+      {"number beyond the grid",
+       [](json& d) { d["cells"]["walls"].back()["cell"] = 2592000000ULL; }},
+      {"number twice", [&](json& d) { first_cell(d)["cell"] = d["cells"]["walls"][1]["cell"]; }},
+      {"items negative", [&](json& d) { first_cell(d)["items"] = -1; }},
+      {"no bytes", [&](json& d) { first_cell(d)["bytes"] = 0; }},
+      {"digest short", [&](json& d) { first_cell(d)["digest"] = "00"; }},
+  };
+  for (const auto& [name, change] : changes) {
+    SCOPED_TRACE(name);
+    json document = json::parse(map.areas_document());
+    change(document);
+    const auto parsed = parse_areas_document(document.dump(), kWhere, map.version());
+    expect_corrupt(parsed.ok(), parsed.ok() ? Error{} : parsed.error());
+  }
+}
+
+TEST(CatalogDocument, IsRead) {
+  const FakeMap map;
+  const auto maps = parse_catalog_document(map.catalog_document(), kWhere);
+  ASSERT_TRUE(maps.ok()) << maps.error().line();
+  EXPECT_EQ(*maps, std::vector<MapVersion>{map.version()});
+  EXPECT_TRUE(parse_catalog_document(R"({"maps": []})", kWhere)->empty());
+}
+
+TEST(CatalogDocument, EveryWrongFieldIsRefused) {
+  for (const char* text :
+       {R"({})", R"({"maps": {}})", R"({"maps": [7]})", R"({"maps": [{"name": "town"}]})",
+        R"({"maps": [{"name": "town", "build": "latest"}]})",
+        R"({"maps": [{"build": "00112233445566778899aabbccddeeff"}]})"}) {
+    SCOPED_TRACE(text);
+    const auto parsed = parse_catalog_document(text, kWhere);
+    expect_corrupt(parsed.ok(), parsed.ok() ? Error{} : parsed.error());
+  }
+}
+
 TEST(MapDocument, IsRead) {
   const FakeMap map;
   const auto description = parse_map_document(map.map_document(), kWhere, "town");
@@ -131,6 +188,10 @@ TEST(MapDocument, IsRead) {
   EXPECT_EQ(description->version, map.version());
   EXPECT_EQ(description->layers.size(), 2U);
   EXPECT_EQ(description->layers.at("walls"), R"({"a":1})");
+  EXPECT_EQ(description->bounds.west_deg, 8.4);
+  EXPECT_EQ(description->bounds.south_deg, 49);
+  EXPECT_EQ(description->bounds.east_deg, 8.4);
+  EXPECT_EQ(description->bounds.north_deg, 49.0018);
 }
 
 TEST(MapDocument, EveryWrongFieldIsRefused) {
@@ -144,6 +205,11 @@ TEST(MapDocument, EveryWrongFieldIsRefused) {
       {"layer without parameters", [](json& d) { d["layers"] = {"roofs"}; }},
       {"parameters a text", [](json& d) { d["layer_parameters"]["walls"] = "x"; }},
       {"feature a list", [](json& d) { d["feature"] = {1}; }},
+      {"bounds absent", [](json& d) { d.erase("bounds"); }},
+      {"a side absent", [](json& d) { d["bounds"].erase("east_deg"); }},
+      {"west of east", [](json& d) { d["bounds"]["west_deg"] = 8.5; }},
+      {"south of north", [](json& d) { d["bounds"]["north_deg"] = 48; }},
+      {"beyond the pole", [](json& d) { d["bounds"]["north_deg"] = 91; }},
   };
   for (const auto& [name, change] : changes) {
     SCOPED_TRACE(name);

@@ -18,29 +18,41 @@ namespace milepost::testing {
 //   m      0---------20--------40--------60--      180-------200
 //          |-----------|       |-----------|       |-----------|
 //                    |-----------|       |-----------|
+//
+// The layer "walls" has nine cells, three by three, the first with its south-west corner at
+// 49 N 8.4 E: cell k is in row k / 3 from the south and column k % 3 from the west.
 class FakeMap {
  public:
   FakeMap();
 
   MapVersion version() const { return {"town", build}; }
   Bytes frame(std::uint32_t index) const;
+  Bytes cell_frame(std::uint32_t k) const;
 
+  std::string catalog_document() const;
   std::string map_document() const;
   std::string segment_document() const;
+  std::string areas_document() const;
   std::string near_document() const;
   // The frames of the tiles that meet the range.
   std::string range_body(const AlongRange& range) const;
+  // The frames of the cells that meet the box.
+  std::string box_body(const Bounds& box) const;
 
   // What a good server answers.
   ScriptedAnswer answer(const std::string& target) const;
 
   std::string build = "00112233445566778899aabbccddeeff";
   std::vector<TileEntry> index;
+  std::vector<CellEntry> cells;
 };
 
-// The range that a target asks for; nothing for other targets.
+// The range or the box that a target asks for; nothing for other targets.
 std::optional<AlongRange> range_of(const std::string& target);
+std::optional<Bounds> box_of(const std::string& target);
 
 bool is_tile_target(const std::string& target);
+// Whether cells themselves are asked for, not their index.
+bool is_cell_target(const std::string& target);
 
 }  // namespace milepost::testing

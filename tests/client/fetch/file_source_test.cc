@@ -17,6 +17,9 @@ using ::testing::HasSubstr;
 
 Bytes frame_of(std::uint32_t index) { return Bytes(100 + index, static_cast<std::uint8_t>(index)); }
 
+// The cell at 49 N 8.4 E; there is another to its east.
+constexpr std::uint32_t kCell = 27800 * kCellColumns + 37680;
+
 // The map "town" with two segments that go north, 200 m long, s2 about 73 m to the east of s1.
 class FileSourceTest : public ::testing::Test {
  protected:
@@ -30,6 +33,10 @@ class FileSourceTest : public ::testing::Test {
     for (std::uint32_t k = 0; k < 10; ++k) {
       const AlongRange along{20.0 * k, 20.0 * k + 25};
       EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, frame_of(k)).ok());
+    }
+    EXPECT_TRUE(writer->add_layer("walls", "{}").ok());
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      EXPECT_TRUE(writer->add_cell("walls", kCell + k, 3, frame_of(k)).ok());
     }
     auto build = writer->finish();
     EXPECT_TRUE(build.ok());
@@ -72,6 +79,8 @@ TEST_F(FileSourceTest, DescribesTheMapAndItsSegments) {
   EXPECT_EQ(description->version, version_);
   EXPECT_EQ(description->layers.at("tracklets"), R"({"tile_length_m":20})");
   EXPECT_EQ(description->feature_json, R"({"kind":"sift"})");
+  EXPECT_EQ(description->bounds.west_deg, 8.4);
+  EXPECT_EQ(description->bounds.north_deg, 49.005);  // of the cells
   const auto segment = source_->segment(version_, "s2");
   ASSERT_TRUE(segment.ok());
   EXPECT_EQ(segment->id, "s2");
@@ -92,7 +101,33 @@ TEST_F(FileSourceTest, ReadsTheTilesOfARange) {
   EXPECT_EQ(source_->counters().requests, 0U);
 }
 
+TEST_F(FileSourceTest, ReadsTheCellsOfABox) {
+  const auto both = source_->cells(version_, "walls", {8.4, 49, 8.41, 49.005});
+  ASSERT_TRUE(both.ok()) << both.error().line();
+  ASSERT_EQ(both->size(), 2U);
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    EXPECT_EQ((*both)[k].cell, kCell + k);
+    EXPECT_EQ((*both)[k].frame, frame_of(k));
+  }
+  EXPECT_EQ(source_->cells(version_, "walls", {8.406, 49, 8.41, 49.001})->size(), 1U);
+  EXPECT_EQ(source_->cells(version_, "walls", {8.406, 49, -170, 49.001})->size(), 1U);
+  EXPECT_TRUE(source_->cells(version_, "walls", {9, 49, 10, 50})->empty());
+  EXPECT_TRUE(source_->cells(version_, "tracklets", {8, 49, 10, 50})->empty());
+}
+
+TEST_F(FileSourceTest, RefusesABoxThatIsNone) {
+  const auto cells = source_->cells(version_, "walls", {8, 50, 9, 49});
+  ASSERT_FALSE(cells.ok());
+  EXPECT_EQ(cells.error().code, ErrorCode::invalid_input);
+}
+
+TEST_F(FileSourceTest, IsACatalogOfOneMap) { EXPECT_THAT(*source_->maps(), ElementsAre(version_)); }
+
 TEST_F(FileSourceTest, TellsTheAbsentFromTheGone) {
+  const Bounds box{8, 49, 9, 50};
+  EXPECT_EQ(source_->cells(version_, "roofs", box).error().code, ErrorCode::not_found);
+  EXPECT_EQ(source_->cells({"town", std::string(32, 'a')}, "walls", box).error().code,
+            ErrorCode::gone);
   EXPECT_EQ(source_->segment(version_, "s7").error().code, ErrorCode::not_found);
   EXPECT_EQ(source_->tiles(version_, "s1", "clouds", {0, 10}).error().code, ErrorCode::not_found);
   EXPECT_EQ(source_->describe({"village", version_.build}).error().code, ErrorCode::not_found);

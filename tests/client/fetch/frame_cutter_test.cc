@@ -16,11 +16,12 @@ using ::testing::StartsWith;
 class FrameCutterTest : public ::testing::Test {
  protected:
   FrameCutter cutter() {
-    return {
-        "http://here/", {map_.index[2], map_.index[3]}, [this](const TileEntry& entry, Bytes f) {
-          EXPECT_EQ(f, map_.frame(entry.index));
-          received_.push_back(entry.index);
-        }};
+    return {"http://here/",
+            {expected_frame(map_.index[2]), expected_frame(map_.index[3])},
+            [this](std::uint32_t index, const Bytes& f) {
+              EXPECT_EQ(f, map_.frame(index));
+              received_.push_back(index);
+            }};
   }
 
   FakeMap map_;

@@ -4,17 +4,11 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include <atomic>
 #include <fstream>
-#include <mutex>
-#include <optional>
 #include <thread>
 #include <vector>
 
-#include "client/fetch/http_source_parts.h"
-#include "tests/client/fetch/fake_map.h"
-#include "tests/support/scripted_server.h"
-#include "tests/support/temp_folder.h"
+#include "tests/client/fetch/misbehaving_server.h"
 
 namespace milepost::testing {
 namespace {
@@ -24,43 +18,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// A server with the fake map, which a test may make misbehave, and sources that do not wait.
-class HttpSourceTest : public ::testing::Test {
+class HttpSourceTest : public MisbehavingServerTest {
  protected:
-  std::unique_ptr<MapSource> open_source() { return open_source(server_.url()); }
-
-  std::unique_ptr<MapSource> open_source(const std::string& url) {
-    HttpSourceSettings settings;
-    settings.server_url = url;
-    settings.cache_directory = cache_.path();
-    settings.cache_limit_bytes = cache_limit_bytes_;
-    HttpSourceParts parts;
-    parts.transport = make_curl_transport({5, 10});
-    parts.sleep = [this](double pause_s) { pauses_s_.push_back(pause_s); };
-    parts.now_s = [this] { return now_s_.load(); };
-    auto source = make_http_source(settings, std::move(parts));
-    EXPECT_TRUE(source.ok());
-    return std::move(source).value();
-  }
-
-  // Answers the next requests whose target `matches`, one after the other, before the map does.
-  void answer_next(const std::string& matches, std::vector<ScriptedAnswer> answers) {
-    const std::lock_guard lock(mutex_);
-    special_target_ = matches;
-    special_answers_ = std::move(answers);
-  }
-
   // Changes every answer to a tile request.
   void spoil_tiles(std::function<void(std::string& body)> spoil) {
-    const std::lock_guard lock(mutex_);
-    spoil_ = std::move(spoil);
+    spoil_answers(is_tile_target, std::move(spoil));
   }
 
-  std::vector<std::string> tile_requests() const {
-    std::vector<std::string> requests = server_.requests();
-    std::erase_if(requests, [](const std::string& target) { return !is_tile_target(target); });
-    return requests;
-  }
+  std::vector<std::string> tile_requests() const { return requests(is_tile_target); }
 
   void expect_tiles(MapSource& source, const AlongRange& range,
                     const std::vector<std::uint32_t>& indices) const {
@@ -79,34 +44,6 @@ class HttpSourceTest : public ::testing::Test {
     if (tiles.ok()) ADD_FAILURE() << "the tiles came";
     return tiles.ok() ? Error{} : tiles.error();
   }
-
-  FakeMap map_;
-  TempFolder cache_;
-  std::uint64_t cache_limit_bytes_ = 1ULL << 30U;
-  std::atomic<std::int64_t> now_s_ = 1000;
-  std::vector<double> pauses_s_;
-
- private:
-  ScriptedAnswer answer(const std::string& target) {
-    const std::lock_guard lock(mutex_);
-    const bool special = !special_answers_.empty() && target.find(special_target_) != target.npos;
-    if (special) {
-      ScriptedAnswer next = special_answers_.front();
-      special_answers_.erase(special_answers_.begin());
-      return next;
-    }
-    ScriptedAnswer usual = map_.answer(target);
-    if (spoil_ && is_tile_target(target)) spoil_(usual.body);
-    return usual;
-  }
-
-  std::mutex mutex_;
-  std::string special_target_;
-  std::vector<ScriptedAnswer> special_answers_;
-  std::function<void(std::string&)> spoil_;
-
- protected:
-  ScriptedServer server_{[this](const std::string& target) { return answer(target); }};
 };
 
 TEST_F(HttpSourceTest, AColdFetchBringsARangeInOneRequest) {

@@ -29,9 +29,14 @@ class HeldSource : public MapSource {
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint&, double) override {
     return std::vector<NearbySegment>{};
   }
+  Result<std::vector<MapVersion>> maps() override { return std::vector<MapVersion>{}; }
   Result<MapDescription> describe(const MapVersion&) override { return MapDescription{}; }
   Result<SegmentDescription> segment(const MapVersion&, const std::string&) override {
     return SegmentDescription{};
+  }
+  Result<std::vector<CellFrame>> cells(const MapVersion&, const std::string&,
+                                       const Bounds&) override {
+    return std::vector<CellFrame>{};
   }
   Result<std::uint64_t> layer_bytes(const MapVersion&, const std::string&,
                                     const std::string&) override {

@@ -7,7 +7,9 @@
 
 #include "client/fetch/file_source.h"
 #include "client/fetch/http_source.h"
+#include "client/fetch/walls.h"
 #include "schema/store/map_store.h"
+#include "schema/tile/codec.h"
 #include "server/catalog/catalog.h"
 #include "server/server.h"
 #include "tests/support/scripted_server.h"
@@ -22,6 +24,12 @@ Bytes frame_of(std::uint32_t index) {
   return Bytes(5000 + index, static_cast<std::uint8_t>(index));
 }
 
+// Two walls in one cell, one across the border to the next, and one in that.
+const std::vector<Wall> kWalls = {{{49.001, 8.401}, {49.001, 8.402}, 0.25},
+                                  {{49.001, 8.402}, {49.002, 8.402}, 0.25},
+                                  {{49.003, 8.4049}, {49.003, 8.4051}, 0.5},
+                                  {{49.004, 8.407}, {49.004, 8.408}, 0.25}};
+
 // A map with lengths that no decimal number is exactly, written as a mapper would.
 std::string write_map(const std::filesystem::path& file) {
   auto writer = MapWriter::create(file);
@@ -34,6 +42,9 @@ std::string write_map(const std::filesystem::path& file) {
   for (std::uint32_t k = 0; k < 10; ++k) {
     const AlongRange along{20.0 * k + 1.0 / 3, 20.0 * k + 25 + 1.0 / 7};
     EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, frame_of(k)).ok());
+  }
+  for (const WallTile& tile : tiles_of(kWalls)) {
+    EXPECT_TRUE(writer->add_cell("walls", tile.cell, tile.walls.size(), encode_walls(tile)).ok());
   }
   auto build = writer->finish();
   EXPECT_TRUE(build.ok());
@@ -135,10 +146,45 @@ TEST_F(ServedMapTest, TheCacheServesWhenTheServerHasGone) {
             ErrorCode::unavailable);
 }
 
+TEST_F(ServedMapTest, TheServerAndTheFileHaveTheSameWalls) {
+  const auto file = std::move(open_file_source(folder_ / "maps" / "town.mpm")).value();
+  const auto served = open_source();
+  EXPECT_THAT(*served->maps(), ElementsAre(version_));
+  const auto maps = maps_with_walls(*served);
+  ASSERT_TRUE(maps.ok()) << maps.error().line();
+  ASSERT_EQ(maps->size(), 1U);
+  EXPECT_EQ(maps->front().version, version_);
+  EXPECT_EQ(maps->front().bounds.east_deg, 8.41);
+  EXPECT_EQ(maps->front().bounds.east_deg, maps_with_walls(*file)->front().bounds.east_deg);
+  for (const Bounds& box : {Bounds{8.4, 49, 8.41, 49.005}, Bounds{8.401, 49, 8.402, 49.001},
+                            Bounds{8.406, 49, 8.407, 49.001}, Bounds{8.405, 49, 8.405, 49},
+                            Bounds{8.406, 49, -179, 49.001}, Bounds{1, 1, 2, 2}}) {
+    const auto walls = walls_in(*served, version_, "walls", box);
+    ASSERT_TRUE(walls.ok()) << walls.error().line();
+    EXPECT_EQ(*walls, *walls_in(*file, version_, "walls", box)) << box.west_deg;
+  }
+  EXPECT_EQ(walls_in(*served, version_, "walls", {8.4, 49, 8.41, 49.005})->size(), kWalls.size());
+  EXPECT_TRUE(walls_in(*served, version_, "tracklets", {8, 49, 9, 50})->empty());
+}
+
+TEST_F(ServedMapTest, TheCacheHasTheWallsWhenTheServerHasGone) {
+  const Bounds box{8.4, 49, 8.41, 49.005};
+  ASSERT_EQ(maps_with_walls(*open_source())->size(), 1U);
+  ASSERT_TRUE(walls_in(*open_source(), version_, "walls", box).ok());
+  server_->stop();
+  const auto source = open_source();
+  const auto maps = maps_with_walls(*source);
+  ASSERT_TRUE(maps.ok()) << maps.error().line();
+  ASSERT_EQ(maps->size(), 1U);
+  EXPECT_EQ(walls_in(*source, maps->front().version, "walls", box)->size(), kWalls.size());
+}
+
 TEST_F(ServedMapTest, AnotherBuildIsGoneAndAnotherMapAbsent) {
   const auto source = open_source();
   const MapVersion old{"town", std::string(32, 'a')};
   EXPECT_EQ(source->segment(old, "s1").error().code, ErrorCode::gone);
+  EXPECT_EQ(source->cells(old, "walls", {8, 49, 9, 50}).error().code, ErrorCode::gone);
+  EXPECT_EQ(source->cells(version_, "roofs", {8, 49, 9, 50}).error().code, ErrorCode::not_found);
   EXPECT_EQ(source->segment(version_, "s7").error().code, ErrorCode::not_found);
   EXPECT_EQ(source->segment({"village", version_.build}, "s1").error().code, ErrorCode::not_found);
 }

@@ -72,9 +72,14 @@ class LandmarkRoadMap : public MapSource {
                                        const std::string& layer, const AlongRange& range) override;
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                    double radius_m) override;
+  Result<std::vector<MapVersion>> maps() override { return std::vector<MapVersion>{}; }
   Result<MapDescription> describe(const MapVersion& version) override;
   Result<SegmentDescription> segment(const MapVersion& version,
                                      const std::string& segment) override;
+  Result<std::vector<CellFrame>> cells(const MapVersion& /*version*/, const std::string& /*layer*/,
+                                       const Bounds& /*box*/) override {
+    return std::vector<CellFrame>{};
+  }
   Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
                                     const std::string& layer) override;
   SourceCounters counters() const override { return {}; }

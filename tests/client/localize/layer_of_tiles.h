@@ -30,9 +30,14 @@ class LayerOfTiles : public MapSource {
                                                    double /*radius_m*/) override {
     return absent();
   }
+  Result<std::vector<MapVersion>> maps() override { return absent(); }
   Result<MapDescription> describe(const MapVersion& /*version*/) override { return absent(); }
   Result<SegmentDescription> segment(const MapVersion& /*version*/,
                                      const std::string& /*segment*/) override {
+    return absent();
+  }
+  Result<std::vector<CellFrame>> cells(const MapVersion& /*version*/, const std::string& /*layer*/,
+                                       const Bounds& /*box*/) override {
     return absent();
   }
   Result<std::uint64_t> layer_bytes(const MapVersion& /*version*/, const std::string& /*segment*/,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace milepost {
 namespace {
 
@@ -50,6 +52,37 @@ TEST(CellGrid, BoxesMeetAtTheirBorders) {
   EXPECT_EQ(both.south_deg, 49);
   EXPECT_EQ(both.east_deg, 9);
   EXPECT_EQ(both.north_deg, 51);
+}
+
+TEST(CellGrid, BoxesMeetAcrossLongitude180) {
+  const Bounds across{179, 0, -179, 1};
+  EXPECT_TRUE(across.crosses_180());
+  for (const Bounds& other : {Bounds{178, 0, 179, 1}, Bounds{-179, 0, -178, 1},
+                              Bounds{-180, 0, 180, 1}, Bounds{179.5, 1, 179.6, 2}, across}) {
+    EXPECT_TRUE(across.meets(other)) << other.west_deg;
+    EXPECT_TRUE(other.meets(across)) << other.west_deg;
+  }
+  for (const Bounds& other :
+       {Bounds{-178.9, 0, 178.9, 1}, Bounds{179.5, 1.1, 179.6, 2}, Bounds{179, -1, -179, -0.1}}) {
+    EXPECT_FALSE(across.meets(other)) << other.west_deg;
+    EXPECT_FALSE(other.meets(across)) << other.west_deg;
+  }
+  EXPECT_FALSE((Bounds{179, 0, 180, 1}.meets({-180, 0, -179, 1})));
+}
+
+TEST(CellGrid, ABoxIsOfDegreesOnTheEarth) {
+  const double nan = std::nan("");
+  EXPECT_TRUE((Bounds{-180, -90, 180, 90}.is_valid()));
+  EXPECT_TRUE((Bounds{179, 1, -179, 1}.is_valid()));
+  EXPECT_FALSE((Bounds{8, 50, 9, 49}.is_valid()));
+  EXPECT_FALSE((Bounds{-180.1, 49, 9, 50}.is_valid()));
+  EXPECT_FALSE((Bounds{8, 49, 180.1, 50}.is_valid()));
+  EXPECT_FALSE((Bounds{8, -90.1, 9, 50}.is_valid()));
+  EXPECT_FALSE((Bounds{8, 49, 9, 90.1}.is_valid()));
+  for (const Bounds& box : {Bounds{nan, 49, 9, 50}, Bounds{8, nan, 9, 50}, Bounds{8, 49, nan, 50},
+                            Bounds{8, 49, 9, nan}}) {
+    EXPECT_FALSE(box.is_valid());
+  }
 }
 
 }  // namespace

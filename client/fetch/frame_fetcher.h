@@ -1,0 +1,55 @@
+// Stored frames from the cache and, where it lacks them, from the server.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "client/cache/tile_cache.h"
+#include "client/fetch/frame_cutter.h"
+#include "client/fetch/server_requests.h"
+
+namespace milepost {
+
+// One request, and what its answer must consist of.
+struct FrameRequest {
+  std::string url;
+  std::vector<ExpectedFrame> expected;
+};
+
+// Safe to use from several threads at once. Two that miss the same frame at the same time may both
+// ask for it.
+class FrameFetcher {
+ public:
+  // The request that brings some of the missing frames, which are never none.
+  using RequestFor = std::function<FrameRequest(const std::set<std::uint32_t>& missing)>;
+
+  // Both outlive the fetcher.
+  FrameFetcher(ServerRequests& requests, TileCache& cache) : requests_(requests), cache_(cache) {}
+
+  // The wanted frames, by number. `layer_key` is theirs in the cache, but for the number. Whole
+  // frames of an answer that breaks off are kept, and the rest is asked for again.
+  // Errors: those of HttpAnswer; corrupt (an answer of other frames than `request_for` expects).
+  Result<std::map<std::uint32_t, Bytes>> fetch(const CacheKey& layer_key,
+                                               const std::vector<ExpectedFrame>& wanted,
+                                               const RequestFor& request_for);
+
+  std::uint64_t from_cache() const { return from_cache_; }
+  std::uint64_t from_server() const { return from_server_; }
+
+ private:
+  struct Collection;
+  Attempt fetch_once(const FrameRequest& request, Collection& collection);
+  void take_from_server(std::uint32_t number, Bytes frame, Collection& collection);
+
+  ServerRequests& requests_;
+  TileCache& cache_;
+  std::atomic<std::uint64_t> from_cache_ = 0;
+  std::atomic<std::uint64_t> from_server_ = 0;
+};
+
+}  // namespace milepost

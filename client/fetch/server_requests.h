@@ -1,0 +1,38 @@
+// Requests to a server: counted, and tried again where that may help.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "client/fetch/retry.h"
+#include "client/fetch/transport.h"
+
+namespace milepost {
+
+// Safe to use from several threads at once.
+class ServerRequests {
+ public:
+  ServerRequests(std::unique_ptr<Transport> transport, RetryPolicy retry)
+      : transport_(std::move(transport)), retry_(std::move(retry)) {}
+
+  // One request, as Transport::get.
+  HttpAnswer get(const std::string& url, std::uint64_t limit_bytes, const BodySink& sink);
+  // One request for a document of at most 64 MiB.
+  Attempt try_document(const std::string& url, std::string& text);
+  // The same, tried again. Errors: those of HttpAnswer.
+  Result<std::string> document(const std::string& url);
+
+  const RetryPolicy& retry() const { return retry_; }
+  std::uint64_t made() const { return made_; }
+  std::uint64_t bytes_received() const { return bytes_received_; }
+
+ private:
+  const std::unique_ptr<Transport> transport_;
+  const RetryPolicy retry_;
+  std::atomic<std::uint64_t> made_ = 0;
+  std::atomic<std::uint64_t> bytes_received_ = 0;
+};
+
+}  // namespace milepost

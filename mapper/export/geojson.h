@@ -1,0 +1,29 @@
+// The content of a map as GeoJSON (RFC 7946), for other programs to draw and to compare.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "schema/base/result.h"
+#include "schema/store/map_store.h"
+
+namespace milepost {
+
+// The name that stands for the network of segments where a layer is named.
+inline constexpr const char* kSegments = "segments";
+
+struct GeoJson {
+  std::string text;  // a FeatureCollection, one feature a line; the same map gives the same text
+  std::size_t features = 0;
+};
+
+// Each segment's line in WGS84, [longitude_deg, latitude_deg, altitude_m], with the properties id,
+// length_m and successors. Errors: those of MapReader; corrupt (a segment without a line).
+Result<GeoJson> segments_geojson(const MapReader& map);
+
+// Each wall of a layer once, from its begin to its end in WGS84, [longitude_deg, latitude_deg],
+// with the property sigma_m. Errors: not_found (no such layer; it names those there are),
+// invalid_input (a layer of other items), corrupt (a tile), those of MapReader.
+Result<GeoJson> walls_geojson(const MapReader& map, const std::string& layer);
+
+}  // namespace milepost

@@ -1,0 +1,24 @@
+// What the tests of the routes look at in an answer.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "server/response.h"
+
+namespace milepost::server {
+
+inline constexpr const char* kImmutable = "public, max-age=31536000, immutable";
+
+std::string text_of(const Response& response);
+
+// The JSON document of an answer that must be one.
+nlohmann::json json_of(const Response& response);
+
+// The status, after a look at the problem document that must come with it.
+unsigned problem_status(const Response& response);
+
+std::string detail_of(const Response& response);
+
+}  // namespace milepost::server
