@@ -110,9 +110,14 @@ std::optional<double> WallFilter::explained_by(const PlanPose& pose,
   return orientation_importance(pose, observation.sections, walls_, settings_.view_reach_m);
 }
 
+// The part of the belief that goes to challengers. A known start is not challenged.
+double WallFilter::challenged_per_s() const {
+  if (watch_.is_found()) return kDoubtedPerS * watch_.doubt();
+  return settings_.start && !watch_.was_found() ? 0 : kChallengedPerS;
+}
+
 void WallFilter::challenge(const WallObservation& observation, double duration_s) {
-  const double rate = watch_.is_found() ? kDoubtedPerS * watch_.doubt() : kChallengedPerS;
-  const double mass = 1 - std::exp(-rate * duration_s);
+  const double mass = 1 - std::exp(-challenged_per_s() * duration_s);
   if (mass <= 0) return;
   const std::size_t count = std::max<std::size_t>(1, settings_.particles / kParticlesPerChallenger);
   ParticleCloud candidates = oriented_cloud(kChallengerCandidates * count, observation.sections,

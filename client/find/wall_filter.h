@@ -59,6 +59,7 @@ class WallFilter {
              const Weighing& weighing) const;
   std::optional<double> explained_by(const PlanPose& pose,
                                      const WallObservation& observation) const;
+  double challenged_per_s() const;
   void challenge(const WallObservation& observation, double duration_s);
   void resample();
 

@@ -9,6 +9,7 @@
 namespace milepost {
 namespace {
 
+constexpr double kMaxStartTurnDeg = 60;    // between a heading that is known and a segment's
 constexpr double kCoarseSpeedMps = 20;     // how fast a coarse position grows old
 constexpr double kMaxOdometryAgeS = 0.5;   // at a start
 constexpr std::size_t kMaxCandidates = 4;  // segments tried at a start
@@ -57,6 +58,7 @@ struct Localizer::Impl {
   Result<std::optional<Start>> find_start(const QueryFrame& frame,
                                           const std::vector<NearbySegment>& candidates);
   bool coarse_is_fresh(double timestamp_s) const;
+  bool may_be_followed(const NearbySegment& where) const;
   bool is_contradicted(double timestamp_s) const;
   Status enter(const NearbySegment& where);
   Result<Fix> track(const QueryFrame& frame);
@@ -124,6 +126,13 @@ bool Localizer::Impl::coarse_is_fresh(double timestamp_s) const {
   return coarse && timestamp_s - coarse->timestamp_s <= settings.max_coarse_age_s;
 }
 
+// Whether the entered segment leads where the vehicle looks, as far as that is known.
+bool Localizer::Impl::may_be_followed(const NearbySegment& where) const {
+  if (!coarse->heading_deg) return true;
+  const double turn_deg = *coarse->heading_deg - session->line.heading_deg_at(where.along_m);
+  return std::abs(std::remainder(turn_deg, 360)) <= kMaxStartTurnDeg;
+}
+
 // Whether a fresh position of the receiver is too far from where the camera is followed.
 bool Localizer::Impl::is_contradicted(double timestamp_s) const {
   if (!coarse_is_fresh(timestamp_s)) return false;
@@ -161,6 +170,7 @@ Result<std::optional<Start>> Localizer::Impl::find_start(
   for (const NearbySegment& candidate : candidates) {
     const Status entered = enter(candidate);
     if (!entered.ok()) return entered.error();
+    if (!may_be_followed(candidate)) continue;
     const AlongRange around = AlongRange{candidate.along_m, candidate.along_m}.widened(reach_m);
     const Result<std::optional<Sighting>> seen = follower->find(frame, around);
     if (!seen) return seen.error();

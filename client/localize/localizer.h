@@ -47,6 +47,9 @@ struct CoarsePosition {
   double timestamp_s = 0;
   GeoPoint position;
   double sigma_m = 0;  // one standard deviation, in each direction
+  // Where it is known which way the vehicle looks, clockwise from north, within 30 degrees or so:
+  // segments that lead elsewhere are no place to start.
+  std::optional<double> heading_deg = {};
 };
 
 // What the wheels say of the vehicle's motion.
