@@ -65,7 +65,7 @@ Status check_holds_walls(const MapReader& map, const std::string& layer) {
   const std::string items = items_of(found->second);
   if (items == "walls") return ok_status();
   return Error{ErrorCode::invalid_input, map.file().string(),
-               "the layer '" + layer + "' holds " + items + ", which are no lines on a map",
+               "the layer '" + layer + "' does not hold walls: its items are '" + items + "'",
                "export a layer of walls, or segments"};
 }
 

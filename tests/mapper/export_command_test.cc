@@ -148,7 +148,8 @@ TEST_F(ExportCommandTest, AnAbsentLayerIsToldWithThoseThatThereAre) {
 }
 
 TEST_F(ExportCommandTest, ALayerOfOtherItemsIsRefused) {
-  expect_refused(export_layer("tracklets"), 1, {"'tracklets'", "holds landmarks", "segments"});
+  expect_refused(export_layer("tracklets"), 1,
+                 {"'tracklets'", "its items are 'landmarks'", "segments"});
 }
 
 TEST_F(ExportCommandTest, ADamagedCellIsNamed) {

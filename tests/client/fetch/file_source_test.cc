@@ -140,6 +140,7 @@ TEST_F(FileSourceTest, TellsTheAbsentFromTheGone) {
 
 TEST_F(FileSourceTest, SeveralThreadsShareASource) {
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([this] {
       for (std::uint32_t k = 0; k < 10; ++k) {

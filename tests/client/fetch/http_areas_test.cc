@@ -228,6 +228,7 @@ TEST_F(HttpAreasTest, TheDocumentsOutliveTheCells) {
 TEST_F(HttpAreasTest, SeveralThreadsShareASource) {
   const auto source = open_source();
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&] {
       expect_cells(*source, kSouthWest, {0, 1, 3, 4});

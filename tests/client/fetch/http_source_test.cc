@@ -13,7 +13,6 @@
 namespace milepost::testing {
 namespace {
 
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -402,6 +401,7 @@ TEST_F(HttpSourceTest, WorksWithACacheThatHoldsNothing) {
 TEST_F(HttpSourceTest, SeveralThreadsShareASource) {
   const auto source = open_source();
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&, t] {
       for (std::uint32_t k = 0; k < 9; ++k) {

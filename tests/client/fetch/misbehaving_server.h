@@ -67,7 +67,8 @@ class MisbehavingServerTest : public ::testing::Test {
  private:
   ScriptedAnswer answer(const std::string& target) {
     const std::lock_guard lock(mutex_);
-    const bool special = !special_answers_.empty() && target.find(special_target_) != target.npos;
+    const bool special =
+        !special_answers_.empty() && target.find(special_target_) != std::string::npos;
     if (special) {
       ScriptedAnswer next = special_answers_.front();
       special_answers_.erase(special_answers_.begin());
