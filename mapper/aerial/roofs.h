@@ -1,0 +1,55 @@
+// Which regions of a picture are roofs: by their shape, by the shadow they cast, by colours that the
+// picture's own clearest roofs have, and by their neighbours. Nothing of it is in the aerial
+// paper; decision 21 tells what it is worth.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "mapper/aerial/regions.h"
+#include "mapper/aerial/sun.h"
+#include "mapper/aerial/wall_line.h"
+
+namespace milepost {
+
+// What is measured of a region, in the order of RoofWeights.
+inline constexpr std::size_t kRoofFeatures = 11;
+using RoofFeatures = std::array<double, kRoofFeatures>;
+
+struct RoofSettings {
+  // Log odds that a region is a roof, by shape and shadow: a bias and a weight a feature.
+  double bias = 0;
+  RoofFeatures weights{};
+  double colour_trust = 1;     // of the log odds by colour
+  double neighbour_trust = 1;  // of the mean log odds of neighbours of a like colour
+  int rounds = 4;              // in which colours are learned and neighbours asked
+};
+
+// The features of each region: [0] ln of its area (m2), [1] its square, [2] ln of its length, [3] ln
+// of its width (m), [4] hull ratio, [5] share of its rectangle that it fills, [6] share of its
+// outline on straight `lines`, [7] how much darker it is outside on the side of its shadow, [8]
+// share of green outside, [9] ln of its contrast to what is outside, [10] ln of its texture.
+std::vector<RoofFeatures> roof_features(const RegionMap& map, const WallLines& lines,
+                                        const Sun& sun);
+
+// The probability of each region to be a roof.
+std::vector<double> roof_probabilities(const RegionMap& map,
+                                       const std::vector<RoofFeatures>& features,
+                                       const RoofSettings& settings);
+
+// CV_32FC1: the probability at each pixel of the map; 0 where there is no region.
+cv::Mat roof_picture(const RegionMap& map, const std::vector<double>& probabilities);
+
+struct RoofEdgeSettings {
+  double min_difference = 0.35;  // of the mean probability between both sides of a wall
+  double near_m = 0.4;           // from the wall, where its sides begin
+  double far_m = 1.3;            // and end
+};
+
+// The lines that have a roof on one side and none on the other, turned so that it is on the right.
+WallLines at_roof_edges(const WallLines& lines, const cv::Mat& roofs, const PixelGrid& grid,
+                        const RoofEdgeSettings& settings);
+
+}  // namespace milepost
