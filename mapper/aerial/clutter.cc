@@ -38,7 +38,8 @@ cv::Mat green_mask(const Picture& picture, const ClutterSettings& settings) {
   smooth.convertTo(smooth, CV_32F);
   cv::split(smooth, bgr);
   const cv::Mat excess = 2 * bgr[1] - bgr[0] - bgr[2];
-  return excess > settings.min_greenness * (bgr[0] + bgr[1] + bgr[2]);
+  const cv::Mat sum = bgr[0] + bgr[1] + bgr[2];
+  return excess > settings.min_greenness * sum;
 }
 
 }  // namespace milepost

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -21,7 +22,7 @@ constexpr double kMaxLineTurnDeg = 25;    // between such a line and the outline
 constexpr double kMinShadeCosine = 0.5;   // of an outline's normal with the shadow's direction
 constexpr double kNeighbourM = 0.6;       // apart are pixels whose regions are neighbours
 constexpr double kLikeColour = 6;         // distance in a and b at which colours are hardly alike
-constexpr double kRidge = 5;              // of the colour's logistic regression
+constexpr double kRidge = 5;              // of the logistic regression of looks
 constexpr double kMaxLogOdds = 9;
 
 double log_odds(double probability) {
@@ -92,49 +93,44 @@ RoofFeatures features_of(const Region& region, const RegionMap& map, const cv::M
   }
   const double points = std::max<double>(static_cast<double>(region.outline.size()), 1);
   const double ln_area = std::log(region.area_m2);
-  return {ln_area,
-          ln_area * ln_area,
-          std::log(region.length_m),
-          std::log(region.width_m),
-          std::min(region.hull_ratio, 4.0),
-          region.area_m2 / (region.length_m * region.width_m),
-          on_lines / points,
-          shade / std::max(shaded_points, 1.0),
-          green / points,
-          std::log(contrast / points + 1),
-          std::log(region.texture + 1)};
+  return {{ln_area, ln_area * ln_area, std::log(region.width_m),
+           region.area_m2 / (region.length_m * region.width_m), on_lines / points,
+           shade / std::max(shaded_points, 1.0)},
+          {std::log(region.texture + 1), green / points, std::log(contrast / points + 1)}};
 }
 
-// What colours say: a logistic regression on L, a, b, their squares and products.
-using ColourTerms = Eigen::Matrix<double, 10, 1>;
+// What looks say: a logistic regression on colour and looks, the colour's squares and products.
+constexpr int kTerms = 13;
+using Terms = Eigen::Matrix<double, kTerms, 1>;
 
-std::vector<ColourTerms> colour_terms(const std::vector<Region>& regions) {
-  const auto count = static_cast<double>(regions.size());
-  Eigen::Array3d mean = Eigen::Array3d::Zero();
-  Eigen::Array3d square = Eigen::Array3d::Zero();
-  for (const Region& region : regions) {
-    mean += region.mean_lab.array() / count;
-    square += region.mean_lab.array().square() / count;
+std::vector<Terms> terms_of(const std::vector<Region>& regions,
+                            const std::vector<RoofFeatures>& features) {
+  Eigen::ArrayXXd looks(6, regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const auto& [texture, green, contrast] = features[i].looks;
+    looks.col(static_cast<Eigen::Index>(i)) << regions[i].mean_lab.array(), texture, green,
+        contrast;
   }
-  const Eigen::Array3d spread = (square - mean.square()).max(1e-6).sqrt();
-  std::vector<ColourTerms> terms;
-  for (const Region& region : regions) {
-    const Eigen::Array3d c = (region.mean_lab.array() - mean) / spread;
-    terms.emplace_back(c[0], c[1], c[2], c[0] * c[0], c[1] * c[1], c[2] * c[2], c[0] * c[1],
-                       c[0] * c[2], c[1] * c[2], 1.0);
+  looks.colwise() -= looks.rowwise().mean().eval();
+  looks.colwise() /= looks.square().rowwise().mean().sqrt().max(1e-6).eval();
+  std::vector<Terms> terms(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const auto c = looks.col(static_cast<Eigen::Index>(i));
+    terms[i] << c[0], c[1], c[2], c[3], c[4], c[5], c[0] * c[0], c[1] * c[1], c[2] * c[2],
+        c[0] * c[1], c[0] * c[2], c[1] * c[2], 1.0;
   }
   return terms;
 }
 
 // The weights of least log loss plus a ridge, by Newton's method. `wanted` are probabilities.
-ColourTerms fitted(const std::vector<ColourTerms>& terms, const std::vector<double>& wanted,
+Terms fitted(const std::vector<Terms>& terms, const std::vector<double>& wanted,
                    const std::vector<double>& weights) {
-  ColourTerms ridge = ColourTerms::Constant(kRidge);
-  ridge[ridge.size() - 1] = 1e-6;  // the bias is free
-  ColourTerms solution = ColourTerms::Zero();
+  Terms ridge = Terms::Constant(kRidge);
+  ridge[kTerms - 1] = 1e-6;  // the bias is free
+  Terms solution = Terms::Zero();
   for (int step = 0; step < 8; ++step) {
-    ColourTerms slope = ridge.cwiseProduct(solution);
-    Eigen::Matrix<double, 10, 10> curvature = ridge.asDiagonal();
+    Terms slope = ridge.cwiseProduct(solution);
+    Eigen::Matrix<double, kTerms, kTerms> curvature = ridge.asDiagonal();
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const double now = probability(terms[i].dot(solution));
       slope += weights[i] * (now - wanted[i]) * terms[i];
@@ -182,9 +178,8 @@ Neighbours neighbours_of(const RegionMap& map) {
 }
 
 double by_shape(const RoofFeatures& features, const RoofSettings& settings) {
-  double odds = settings.bias;
-  for (std::size_t i = 0; i < features.size(); ++i) odds += settings.weights[i] * features[i];
-  return odds;
+  return std::inner_product(features.shape.begin(), features.shape.end(),
+                            settings.shape_weights.begin(), settings.shape_bias);
 }
 
 // The mean of the picture over one side of a line, between two distances from it.
@@ -230,10 +225,10 @@ std::vector<double> roof_probabilities(const RegionMap& map,
     total += weights[i];
   }
   for (double& weight : weights) weight *= static_cast<double>(count) / total;
-  const std::vector<ColourTerms> terms = colour_terms(map.regions);
+  const std::vector<Terms> terms = terms_of(map.regions, features);
   const Neighbours neighbours = neighbours_of(map);
   for (int round = 0; round < settings.rounds; ++round) {
-    const ColourTerms colours = fitted(terms, probabilities, weights);
+    const Terms looks = fitted(terms, probabilities, weights);
     double share = 0;
     for (std::size_t i = 0; i < count; ++i) {
       share += weights[i] * probabilities[i] / static_cast<double>(count);
@@ -243,7 +238,7 @@ std::vector<double> roof_probabilities(const RegionMap& map,
       double around = 0;
       for (const auto& [other, part] : neighbours[i]) around += part * log_odds(probabilities[other]);
       next[i] = probability(shape_odds[i] +
-                            settings.colour_trust * (terms[i].dot(colours) - log_odds(share)) +
+                            settings.looks_trust * (terms[i].dot(looks) - log_odds(share)) +
                             settings.neighbour_trust * around);
     }
     probabilities = std::move(next);

@@ -14,23 +14,26 @@
 
 namespace milepost {
 
-// What is measured of a region, in the order of RoofWeights.
-inline constexpr std::size_t kRoofFeatures = 11;
-using RoofFeatures = std::array<double, kRoofFeatures>;
-
-struct RoofSettings {
-  // Log odds that a region is a roof, by shape and shadow: a bias and a weight a feature.
-  double bias = 0;
-  RoofFeatures weights{};
-  double colour_trust = 1;     // of the log odds by colour
-  double neighbour_trust = 1;  // of the mean log odds of neighbours of a like colour
-  int rounds = 4;              // in which colours are learned and neighbours asked
+// What is measured of a region.
+struct RoofFeatures {
+  // Of its shape and shadow, in the order of RoofSettings::shape_weights: ln of its area (m2), the
+  // square of that, ln of its width (m), the share of its rectangle that it fills, the share of its
+  // outline on straight lines, and how much darker it is outside on the side of its shadow.
+  std::array<double, 6> shape{};
+  // Of its looks: ln of its texture, share of green outside, ln of its contrast to what is outside.
+  std::array<double, 3> looks{};
 };
 
-// The features of each region: [0] ln of its area (m2), [1] its square, [2] ln of its length, [3] ln
-// of its width (m), [4] hull ratio, [5] share of its rectangle that it fills, [6] share of its
-// outline on straight `lines`, [7] how much darker it is outside on the side of its shadow, [8]
-// share of green outside, [9] ln of its contrast to what is outside, [10] ln of its texture.
+struct RoofSettings {
+  // Log odds that a region is a roof by its shape: a bias, and a weight a feature.
+  double shape_bias = -7.5;
+  std::array<double, 6> shape_weights = {0.04, -0.21, 2.5, 6.3, 4.3, 1.8};
+  double looks_trust = 1;      // of the log odds by colour and looks
+  double neighbour_trust = 1;  // of the mean log odds of neighbours of a like colour
+  int rounds = 4;              // in which looks are learned and neighbours asked
+};
+
+// `lines` are the straight edges of the picture.
 std::vector<RoofFeatures> roof_features(const RegionMap& map, const WallLines& lines,
                                         const Sun& sun);
 
