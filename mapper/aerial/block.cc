@@ -26,7 +26,8 @@ WallLines on_ground(const std::vector<PixelLine>& found, const PixelGrid& grid) 
 WallLines straight_lines(const std::vector<cv::Mat>& maps, const Gradient& gradient,
                          const PixelGrid& grid, const ExtractionSettings& settings) {
   if (settings.without.contains(Stage::progressive)) {
-    return on_ground(plain_hough(maps[maps.size() / 2], grid.metres_per_pixel, settings.hough), grid);
+    return on_ground(plain_hough(maps[maps.size() / 2], grid.metres_per_pixel, settings.hough),
+                     grid);
   }
   return on_ground(progressive_hough(maps, gradient, grid.metres_per_pixel, settings.hough), grid);
 }
@@ -38,8 +39,8 @@ WallLines walls_of_roofs(const Picture& picture, const ImageLight& light, const 
   WallLines straight;
   std::copy_if(lines.begin(), lines.end(), std::back_inserter(straight),
                [](const WallLine& line) { return line.length_m() >= kMinStraightM; });
-  const std::vector<double> probabilities = roof_probabilities(
-      map, roof_features(map, straight, light.sun), settings.roofs);
+  const std::vector<double> probabilities =
+      roof_probabilities(map, roof_features(map, straight, light.sun), settings.roofs);
   const cv::Mat roofs = roof_picture(map, probabilities);
   pictures.show_regions("6-regions", map.labels);
   pictures.show_share("7-roofs", roofs);

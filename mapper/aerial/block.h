@@ -12,7 +12,8 @@ struct ImageLight {
   double shadow_threshold = 0;  // grey value
 };
 
-// The lines of the block, in its frame; merging and closure are still to be done. Safe from several threads.
+// The lines of the block, in its frame; merging and closure are still to be done. Safe from several
+// threads.
 WallLines block_walls(const Picture& picture, const ImageLight& light,
                       const ExtractionSettings& settings, const StagePictures& pictures);
 

@@ -11,7 +11,7 @@ namespace milepost {
 struct ClutterSettings {
   double window_m = 0.7;        // of the corner detector
   double min_response = 1e-4;   // Harris' R of grey values 0 to 1 a pixel: clutter is from here
-  double max_response = 1;   // to here
+  double max_response = 1;      // to here
   double closing_m = 0.4;       // gaps narrower than twice this are closed
   double min_size_m = 2.0;      // what stays of clutter after this much is taken off all around
   double min_greenness = 0.08;  // (2 G - R - B) / (R + G + B) of vegetation

@@ -81,8 +81,8 @@ Result<Survey> survey(const ImageSource& source, const ExtractionSettings& setti
   for (const Block& block : sample) {
     const Result<Picture> picture = image->read(block.core);
     if (!picture) return picture.error();
-    evidence.add(region_map(*picture, found.light.shadow_threshold, settings.clutter,
-                            settings.regions));
+    evidence.add(
+        region_map(*picture, found.light.shadow_threshold, settings.clutter, settings.regions));
   }
   const std::optional<double> azimuth_deg = evidence.azimuth_deg();
   found.sun_was_estimated = azimuth_deg.has_value();

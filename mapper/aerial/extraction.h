@@ -35,8 +35,8 @@ enum class Stage {
 
 struct ExtractionSettings {
   double metres_per_pixel = 0.1;
-  double block_m = 160;   // length of the sides of blocks
-  double margin_m = 20;   // that a block sees of its neighbours
+  double block_m = 160;  // length of the sides of blocks
+  double margin_m = 20;  // that a block sees of its neighbours
   std::set<Stage> without;
   std::optional<double> sun_azimuth_deg;    // none: estimated from the shadows
   std::optional<double> sun_elevation_deg;  // none: 45
@@ -70,12 +70,13 @@ struct ExtractedWalls {
 };
 
 // Reads the image in blocks that overlap, so that memory depends on their size and on the number
-// of walls, not on the image; what two blocks found of one line is joined. The walls do not depend on
-// `jobs`, the number of threads. With `pictures`, a folder that exists, each stage of each block is
-// drawn there. `on_progress` is called from one thread at a time; the work ends with `cancelled` once it
-// returns false. Errors: those of Orthoimage; io; cancelled.
-Result<ExtractedWalls> extract_walls(const ImageSource& image, const ExtractionSettings& settings,
-                                     int jobs, const std::filesystem::path& pictures,
-                                     const std::function<bool(const ExtractionProgress&)>& on_progress);
+// of walls, not on the image; what two blocks found of one line is joined. The walls do not depend
+// on `jobs`, the number of threads. With `pictures`, a folder that exists, each stage of each block
+// is drawn there. `on_progress` is called from one thread at a time; the work ends with `cancelled`
+// once it returns false. Errors: those of Orthoimage; io; cancelled.
+Result<ExtractedWalls> extract_walls(
+    const ImageSource& image, const ExtractionSettings& settings, int jobs,
+    const std::filesystem::path& pictures,
+    const std::function<bool(const ExtractionProgress&)>& on_progress);
 
 }  // namespace milepost

@@ -33,7 +33,8 @@ GeoPoint GroundFrame::geo_from_ground(const Eigen::Vector2d& ground_m) const {
 std::string GroundFrame::proj() const {
   std::ostringstream text;
   text << std::setprecision(12) << "+proj=tmerc +lat_0=" << origin_.latitude_deg
-       << " +lon_0=" << origin_.longitude_deg << " +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs";
+       << " +lon_0=" << origin_.longitude_deg
+       << " +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs";
   return text.str();
 }
 

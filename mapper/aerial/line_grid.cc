@@ -15,8 +15,7 @@ template <class Visit>
 void for_each_cell(const WallLine& line, double cell_m, Visit visit) {
   const int steps = static_cast<int>(std::ceil(2 * line.length_m() / cell_m)) + 1;
   for (int i = 0; i <= steps; ++i) {
-    const Eigen::Vector2d at =
-        (line.begin_m + (line.end_m - line.begin_m) * i / steps) / cell_m;
+    const Eigen::Vector2d at = (line.begin_m + (line.end_m - line.begin_m) * i / steps) / cell_m;
     visit(static_cast<std::int64_t>(std::floor(at.x())),
           static_cast<std::int64_t>(std::floor(at.y())));
   }

@@ -24,8 +24,7 @@ bool comes_before(const WallLine& a, const WallLine& b) {
 bool are_one(const WallLine& line, const WallLine& other, const MergingSettings& settings) {
   const Eigen::Vector2d along = direction_of(line);
   const Eigen::Vector2d across = right_of(along);
-  if (std::abs(across.dot(direction_of(other))) >
-      std::sin(settings.max_angle_deg * kRadPerDeg)) {
+  if (std::abs(across.dot(direction_of(other))) > std::sin(settings.max_angle_deg * kRadPerDeg)) {
     return false;
   }
   const Eigen::Vector2d to_begin = other.begin_m - line.begin_m;
@@ -48,16 +47,15 @@ WallLine united(const WallLine& line, const WallLine& other) {
   for (const WallLine* const part : {&line, &other}) {
     const Eigen::Vector2d from_middle = (part->begin_m + part->end_m) / 2 - middle;
     const Eigen::Vector2d way = part->end_m - part->begin_m;
-    moments += part->length_m() *
-               (from_middle * from_middle.transpose() + way * way.transpose() / 12);
+    moments +=
+        part->length_m() * (from_middle * from_middle.transpose() + way * way.transpose() / 12);
   }
-  const double angle_rad =
-      std::atan2(2 * moments(0, 1), moments(0, 0) - moments(1, 1)) / 2;
+  const double angle_rad = std::atan2(2 * moments(0, 1), moments(0, 0) - moments(1, 1)) / 2;
   Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
   if (along.dot(line.end_m - line.begin_m) < 0) along = -along;
-  const auto [first_m, last_m] = std::minmax(
-      {along.dot(line.begin_m - middle), along.dot(line.end_m - middle),
-       along.dot(other.begin_m - middle), along.dot(other.end_m - middle)});
+  const auto [first_m, last_m] =
+      std::minmax({along.dot(line.begin_m - middle), along.dot(line.end_m - middle),
+                   along.dot(other.begin_m - middle), along.dot(other.end_m - middle)});
   return {middle + first_m * along, middle + last_m * along};
 }
 

@@ -6,9 +6,9 @@
 namespace milepost {
 
 struct MergingSettings {
-  double max_angle_deg = 6;   // between two segments of one line
-  double max_apart_m = 0.4;   // of the shorter one's ends from the longer one's line
-  double max_gap_m = 0.8;     // between their ends, along the line
+  double max_angle_deg = 6;  // between two segments of one line
+  double max_apart_m = 0.4;  // of the shorter one's ends from the longer one's line
+  double max_gap_m = 0.8;    // between their ends, along the line
 };
 
 // Segments that are almost parallel and near each other become one, from end to end; the longest

@@ -51,11 +51,20 @@ Bands bands_of(GDALDataset& dataset) {
   std::vector<int> others;
   for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
     switch (dataset.GetRasterBand(i)->GetColorInterpretation()) {
-      case GCI_RedBand: rgb[0] = i; break;
-      case GCI_GreenBand: rgb[1] = i; break;
-      case GCI_BlueBand: rgb[2] = i; break;
-      case GCI_AlphaBand: bands.alpha = i; break;
-      default: others.push_back(i);
+      case GCI_RedBand:
+        rgb[0] = i;
+        break;
+      case GCI_GreenBand:
+        rgb[1] = i;
+        break;
+      case GCI_BlueBand:
+        rgb[2] = i;
+        break;
+      case GCI_AlphaBand:
+        bands.alpha = i;
+        break;
+      default:
+        others.push_back(i);
     }
   }
   if (rgb[0] != 0 && rgb[1] != 0 && rgb[2] != 0) {
@@ -74,9 +83,9 @@ Dataset translated(GDALDataset& source, const std::vector<std::string>& words) {
   CPLStringList list;
   for (const std::string& word : words) list.AddString(word.c_str());
   GDALTranslateOptions* const options = GDALTranslateOptionsNew(list.List(), nullptr);
-  Dataset made(
-      static_cast<GDALDataset*>(GDALTranslate("", GDALDataset::ToHandle(&source), options, nullptr)),
-      &GDALClose);
+  Dataset made(static_cast<GDALDataset*>(
+                   GDALTranslate("", GDALDataset::ToHandle(&source), options, nullptr)),
+               &GDALClose);
   GDALTranslateOptionsFree(options);
   return made;
 }
@@ -86,8 +95,8 @@ Dataset warped(GDALDataset& source, const std::vector<std::string>& words) {
   for (const std::string& word : words) list.AddString(word.c_str());
   GDALWarpAppOptions* const options = GDALWarpAppOptionsNew(list.List(), nullptr);
   GDALDatasetH sources[] = {GDALDataset::ToHandle(&source)};
-  Dataset made(
-      static_cast<GDALDataset*>(GDALWarp("", nullptr, 1, sources, options, nullptr)), &GDALClose);
+  Dataset made(static_cast<GDALDataset*>(GDALWarp("", nullptr, 1, sources, options, nullptr)),
+               &GDALClose);
   GDALWarpAppOptionsFree(options);
   return made;
 }
@@ -214,8 +223,9 @@ Result<Orthoimage> Orthoimage::open(const fs::path& file, const std::string& ref
   impl->source = std::move(source);
   if (impl->shown != nullptr) {
     const std::string pixel = std::to_string(metres_per_pixel);
-    impl->picture = warped(*impl->shown, {"-of", "VRT", "-s_srs", wkt_of(*own), "-t_srs", impl->frame.proj(), "-tr", pixel,
-                                          pixel, "-r", "cubic", "-dstalpha"});
+    impl->picture =
+        warped(*impl->shown, {"-of", "VRT", "-s_srs", wkt_of(*own), "-t_srs", impl->frame.proj(),
+                              "-tr", pixel, pixel, "-r", "cubic", "-dstalpha"});
   }
   if (impl->picture == nullptr) {
     return Error{ErrorCode::invalid_input, file.string(),

@@ -41,9 +41,9 @@ struct Picture {
 // Not safe to use from several threads at once.
 class Orthoimage {
  public:
-  // `reference`, as EPSG:3857 or in any other way that GDAL knows, says what the image's coordinates
-  // are where the image does not, as one with a world file; else it may be empty. Errors: not_found;
-  // invalid_input (no image, no georeference, pixels that are not bytes).
+  // `reference`, as EPSG:3857 or in any other way that GDAL knows, says what the image's
+  // coordinates are where the image does not, as one with a world file; else it may be empty.
+  // Errors: not_found; invalid_input (no image, no georeference, pixels that are not bytes).
   static Result<Orthoimage> open(const std::filesystem::path& file, const std::string& reference,
                                  double metres_per_pixel);
 

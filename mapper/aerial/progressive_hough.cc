@@ -239,8 +239,7 @@ class Transform {
     const double half_px = settings_.clearance_m / metres_per_pixel_;
     for (double along = 0; along <= way.norm(); along += 0.5) {
       for (double across = -half_px; across <= half_px; across += 0.5) {
-        const cv::Point pixel =
-            nearest_pixel(line.begin_px + along * direction + across * normal);
+        const cv::Point pixel = nearest_pixel(line.begin_px + along * direction + across * normal);
         if (contains(pixel) && alive_.at<std::uint8_t>(pixel) != 0 && runs_along(pixel, angle)) {
           rest(pixel);
           alive_.at<std::uint8_t>(pixel) = 0;
@@ -272,9 +271,8 @@ class Transform {
 
 }  // namespace
 
-std::vector<PixelLine> progressive_hough(const std::vector<cv::Mat>& maps,
-                                         const Gradient& gradient, double metres_per_pixel,
-                                         const HoughSettings& settings) {
+std::vector<PixelLine> progressive_hough(const std::vector<cv::Mat>& maps, const Gradient& gradient,
+                                         double metres_per_pixel, const HoughSettings& settings) {
   return Transform(maps, gradient, metres_per_pixel, settings).run();
 }
 

@@ -72,8 +72,8 @@ std::vector<OutlinePoint> outline_of(const std::vector<cv::Point>& contour) {
   std::vector<OutlinePoint> outline;
   outline.reserve(contour.size());
   for (int i = 0; i < count; ++i) {
-    const cv::Point way = contour[(i + kNormalReach) % count] -
-                          contour[((i - kNormalReach) % count + count) % count];
+    const cv::Point way =
+        contour[(i + kNormalReach) % count] - contour[((i - kNormalReach) % count + count) % count];
     if (way == cv::Point()) continue;
     outline.push_back({Eigen::Vector2d(contour[i].x, contour[i].y),
                        sense * Eigen::Vector2d(way.y, -way.x).normalized()});
@@ -90,16 +90,13 @@ Region region_of(const RegionMap& map, int label, const Sums& sums) {
   Region region;
   region.label = label;
   region.area_m2 = sums.pixels * pixel_m2;
-  region.length_m =
-      std::max({rectangle.width, rectangle.height, 1.0F}) * map.grid.metres_per_pixel;
-  region.width_m = std::max(std::min(rectangle.width, rectangle.height) *
-                                map.grid.metres_per_pixel,
+  region.length_m = std::max({rectangle.width, rectangle.height, 1.0F}) * map.grid.metres_per_pixel;
+  region.width_m = std::max(std::min(rectangle.width, rectangle.height) * map.grid.metres_per_pixel,
                             map.grid.metres_per_pixel);
   region.hull_ratio = cv::contourArea(hull) / std::max(cv::contourArea(contour), 1.0);
   region.mean_lab = sums.lab / sums.pixels;
-  region.texture =
-      std::sqrt(std::max(0.0, sums.squared_lightness / sums.pixels -
-                                  region.mean_lab[0] * region.mean_lab[0]));
+  region.texture = std::sqrt(std::max(
+      0.0, sums.squared_lightness / sums.pixels - region.mean_lab[0] * region.mean_lab[0]));
   region.outline = outline_of(contour);
   return region;
 }

@@ -17,12 +17,12 @@
 namespace milepost {
 namespace {
 
-constexpr double kLineWidthM = 0.8;       // of a straight line, for outlines that lie on it
-constexpr double kMaxLineTurnDeg = 25;    // between such a line and the outline
-constexpr double kMinShadeCosine = 0.5;   // of an outline's normal with the shadow's direction
-constexpr double kNeighbourM = 0.6;       // apart are pixels whose regions are neighbours
-constexpr double kLikeColour = 6;         // distance in a and b at which colours are hardly alike
-constexpr double kRidge = 5;              // of the logistic regression of looks
+constexpr double kLineWidthM = 0.8;      // of a straight line, for outlines that lie on it
+constexpr double kMaxLineTurnDeg = 25;   // between such a line and the outline
+constexpr double kMinShadeCosine = 0.5;  // of an outline's normal with the shadow's direction
+constexpr double kNeighbourM = 0.6;      // apart are pixels whose regions are neighbours
+constexpr double kLikeColour = 6;        // distance in a and b at which colours are hardly alike
+constexpr double kRidge = 5;             // of the logistic regression of looks
 constexpr double kMaxLogOdds = 9;
 
 double log_odds(double probability) {
@@ -48,7 +48,8 @@ cv::Mat angles_of(const WallLines& lines, const RegionMap& map) {
     const Eigen::Vector2d end = map.grid.pixel_from_ground(line.end_m);
     const double angle = std::atan2(end.y() - begin.y(), end.x() - begin.x());
     const auto point = [](const Eigen::Vector2d& at) {
-      return cv::Point(static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())));
+      return cv::Point(static_cast<int>(std::lround(at.x())),
+                       static_cast<int>(std::lround(at.y())));
     };
     cv::line(angles, point(begin), point(end),
              cv::Scalar::all(std::fmod(angle + std::numbers::pi, std::numbers::pi)), width);
@@ -60,7 +61,8 @@ bool lies_on_line(const OutlinePoint& point, const cv::Mat& angles, double metre
   const Eigen::Vector2d at = point.at_px + 0.2 / metres_per_pixel * point.outward;
   const double angle = angles.at<float>(nearest_inside(at, angles));
   if (angle < 0) return false;
-  const double along_normal = std::abs(point.outward.x() * std::cos(angle) + point.outward.y() * std::sin(angle));
+  const double along_normal =
+      std::abs(point.outward.x() * std::cos(angle) + point.outward.y() * std::sin(angle));
   return along_normal < std::sin(kMaxLineTurnDeg * kRadPerDeg);
 }
 
@@ -124,7 +126,7 @@ std::vector<Terms> terms_of(const std::vector<Region>& regions,
 
 // The weights of least log loss plus a ridge, by Newton's method. `wanted` are probabilities.
 Terms fitted(const std::vector<Terms>& terms, const std::vector<double>& wanted,
-                   const std::vector<double>& weights) {
+             const std::vector<double>& weights) {
   Terms ridge = Terms::Constant(kRidge);
   ridge[kTerms - 1] = 1e-6;  // the bias is free
   Terms solution = Terms::Zero();
@@ -236,7 +238,8 @@ std::vector<double> roof_probabilities(const RegionMap& map,
     std::vector<double> next(count);
     for (std::size_t i = 0; i < count; ++i) {
       double around = 0;
-      for (const auto& [other, part] : neighbours[i]) around += part * log_odds(probabilities[other]);
+      for (const auto& [other, part] : neighbours[i])
+        around += part * log_odds(probabilities[other]);
       next[i] = probability(shape_odds[i] +
                             settings.looks_trust * (terms[i].dot(looks) - log_odds(share)) +
                             settings.neighbour_trust * around);

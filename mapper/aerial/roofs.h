@@ -1,5 +1,5 @@
-// Which regions of a picture are roofs: by their shape, by the shadow they cast, by colours that the
-// picture's own clearest roofs have, and by their neighbours. Nothing of it is in the aerial
+// Which regions of a picture are roofs: by their shape, by the shadow they cast, by colours that
+// the picture's own clearest roofs have, and by their neighbours. Nothing of it is in the aerial
 // paper; decision 21 tells what it is worth.
 #pragma once
 

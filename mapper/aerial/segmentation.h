@@ -7,8 +7,8 @@
 namespace milepost {
 
 struct SegmentationSettings {
-  double scale = 60;          // the paper's k: greater gives larger regions
-  double min_region_m2 = 2;   // smaller ones join a neighbour
+  double scale = 60;         // the paper's k: greater gives larger regions
+  double min_region_m2 = 2;  // smaller ones join a neighbour
 };
 
 struct Segmentation {

@@ -14,7 +14,8 @@ cv::Mat disc(double radius_m, double metres_per_pixel) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
-// Otsu's threshold: the one that parts the grey values into two classes whose means differ the most.
+// Otsu's threshold: the one that parts the grey values into two classes whose means differ the
+// most.
 double otsu_threshold(const std::array<double, 256>& histogram) {
   double total = 0;
   double sum = 0;

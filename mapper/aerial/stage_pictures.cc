@@ -62,9 +62,9 @@ void StagePictures::show_regions(const std::string& name, const cv::Mat& labels)
   for (int y = 0; y < labels.rows; ++y) {
     for (int x = 0; x < labels.cols; ++x) {
       cv::RNG colours(static_cast<std::uint64_t>(labels.at<int>(y, x)) + 1);
-      picture.at<cv::Vec3b>(y, x) =
-          cv::Vec3b(static_cast<std::uint8_t>(colours.next()), static_cast<std::uint8_t>(colours.next()),
-                    static_cast<std::uint8_t>(colours.next()));
+      picture.at<cv::Vec3b>(y, x) = cv::Vec3b(static_cast<std::uint8_t>(colours.next()),
+                                              static_cast<std::uint8_t>(colours.next()),
+                                              static_cast<std::uint8_t>(colours.next()));
     }
   }
   show(name, picture);

@@ -12,8 +12,8 @@
 
 namespace milepost {
 
-// Writes PNG files named FOLDER/BLOCK-NAME.png, or nothing where the folder is empty. What cannot be
-// written is left out. Safe from several threads for different blocks.
+// Writes PNG files named FOLDER/BLOCK-NAME.png, or nothing where the folder is empty. What cannot
+// be written is left out. Safe from several threads for different blocks.
 class StagePictures {
  public:
   StagePictures(std::filesystem::path folder, std::string block)

@@ -8,13 +8,13 @@
 namespace milepost {
 namespace {
 
-constexpr double kMinAreaM2 = 6;      // of a region that may be a roof
-constexpr double kMaxAreaM2 = 2500;   // the same
-constexpr double kMinWidthM = 1.5;    // the same
-constexpr double kMinFilled = 0.7;    // share of its rectangle, the same
-constexpr double kMinDarker = 0.2;    // share of a region's lightness that is missing in a shadow
-constexpr double kMaxDarker = 0.7;    // and beyond which no more is counted
-constexpr double kMinAgreement = 0.1; // share of shaded outline that points one way
+constexpr double kMinAreaM2 = 6;       // of a region that may be a roof
+constexpr double kMaxAreaM2 = 2500;    // the same
+constexpr double kMinWidthM = 1.5;     // the same
+constexpr double kMinFilled = 0.7;     // share of its rectangle, the same
+constexpr double kMinDarker = 0.2;     // share of a region's lightness that is missing in a shadow
+constexpr double kMaxDarker = 0.7;     // and beyond which no more is counted
+constexpr double kMinAgreement = 0.1;  // share of shaded outline that points one way
 
 bool may_be_roof(const Region& region) {
   return region.area_m2 >= kMinAreaM2 && region.area_m2 <= kMaxAreaM2 &&
@@ -26,8 +26,7 @@ bool may_be_roof(const Region& region) {
 double lightness_outside(const RegionMap& map, const OutlinePoint& point) {
   double sum = 0;
   for (const double distance_m : {0.6, 1.0, 1.4}) {
-    const Eigen::Vector2d at =
-        point.at_px + distance_m / map.grid.metres_per_pixel * point.outward;
+    const Eigen::Vector2d at = point.at_px + distance_m / map.grid.metres_per_pixel * point.outward;
     const int x = std::clamp(static_cast<int>(std::lround(at.x())), 0, map.lab.cols - 1);
     const int y = std::clamp(static_cast<int>(std::lround(at.y())), 0, map.lab.rows - 1);
     sum += map.lab.at<cv::Vec3f>(y, x)[0];
