@@ -41,7 +41,7 @@ WallLines walls_of_roofs(const Picture& picture, const ImageLight& light, const 
                [](const WallLine& line) { return line.length_m() >= kMinStraightM; });
   const std::vector<double> probabilities =
       roof_probabilities(map, roof_features(map, straight, light.sun), settings.roofs);
-  const cv::Mat roofs = roof_picture(map, probabilities);
+  const cv::Mat roofs = roof_picture(map, probabilities, settings.roofs);
   pictures.show_regions("6-regions", map.labels);
   pictures.show_share("7-roofs", roofs);
   return at_roof_edges(lines, roofs, map.grid, settings.roof_edges);

@@ -6,7 +6,7 @@
 namespace milepost {
 
 struct ClosureSettings {
-  double reach_m = 1.5;  // ends this near are of one corner
+  double reach_m = 2.5;  // ends this near are of one corner
   int min_ends = 1;      // of a line's two ends, that must be at the end of another line
 };
 

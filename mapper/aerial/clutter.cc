@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "mapper/aerial/morphology.h"
+
 namespace milepost {
 namespace {
 
@@ -12,11 +14,6 @@ constexpr double kHarris = 0.04;  // k of Harris and Stephens (1988)
 
 int odd_pixels(double width_m, double metres_per_pixel) {
   return 2 * static_cast<int>(std::lround(width_m / metres_per_pixel / 2)) + 1;
-}
-
-cv::Mat disc(double radius_m, double metres_per_pixel) {
-  const int width = odd_pixels(2 * radius_m, metres_per_pixel);
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {width, width});
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ struct EdgeSettings {
   double smoothing_m = 0.15;  // sigma of the Gaussian before the detector
   // Gradients at which an edge begins, in grey values a metre, one a map; it goes on to `low_share`
   // of that. The strictest first.
-  std::vector<double> high_per_m = {200, 120, 70};
+  std::vector<double> high_per_m = {120, 70, 40};
   double low_share = 0.4;
 };
 

@@ -11,6 +11,7 @@
 
 #include "mapper/aerial/closure.h"
 #include "mapper/aerial/clutter.h"
+#include "mapper/aerial/corners.h"
 #include "mapper/aerial/edge_maps.h"
 #include "mapper/aerial/ground_frame.h"
 #include "mapper/aerial/merging.h"
@@ -30,7 +31,8 @@ enum class Stage {
   progressive,  // OpenCV's transform of one map instead of the progressive one of several
   merging,
   closure,
-  roofs  // lines stay that are no roof's edge
+  corners,  // ends of walls stay where their edges end
+  roofs     // lines stay that are no roof's edge
 };
 
 struct ExtractionSettings {
@@ -46,6 +48,7 @@ struct ExtractionSettings {
   HoughSettings hough;
   MergingSettings merging;
   ClosureSettings closure;
+  CornerSettings corners;
   RegionSettings regions;
   RoofSettings roofs;
   RoofEdgeSettings roof_edges;

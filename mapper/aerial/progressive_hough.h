@@ -20,7 +20,7 @@ struct HoughSettings {
   double max_gap_m = 0.5;       // along a line without an edge
   double corridor_m = 0.1;      // to either side of a line, for its edges
   double max_turn_deg = 20;     // between a line and the edge at one of its points
-  double clearance_m = 0.35;    // to either side of a line, its edges are used up
+  double clearance_m = 0.2;     // to either side of a line, its edges are used up
   double density_window_m = 2;  // where the share of edge pixels is counted
   double dense_share = 0.12;    // where it is greater, a line must be longer in proportion
   std::uint64_t seed = 1;       // of the order in which edges vote

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <opencv2/imgproc.hpp>
 
+#include "mapper/aerial/morphology.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -249,7 +250,8 @@ std::vector<double> roof_probabilities(const RegionMap& map,
   return probabilities;
 }
 
-cv::Mat roof_picture(const RegionMap& map, const std::vector<double>& probabilities) {
+cv::Mat roof_picture(const RegionMap& map, const std::vector<double>& probabilities,
+                     const RoofSettings& settings) {
   std::vector<float> by_label(map.label_count, 0);
   for (std::size_t i = 0; i < map.regions.size(); ++i) {
     by_label[map.regions[i].label] = static_cast<float>(probabilities[i]);
@@ -260,6 +262,9 @@ cv::Mat roof_picture(const RegionMap& map, const std::vector<double>& probabilit
       picture.at<float>(y, x) = by_label[map.labels.at<int>(y, x)];
     }
   }
+  const double metres_per_pixel = map.grid.metres_per_pixel;
+  cv::morphologyEx(picture, picture, cv::MORPH_CLOSE, disc(settings.closing_m, metres_per_pixel));
+  cv::morphologyEx(picture, picture, cv::MORPH_OPEN, disc(settings.opening_m, metres_per_pixel));
   return picture;
 }
 

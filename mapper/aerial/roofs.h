@@ -29,8 +29,10 @@ struct RoofSettings {
   double shape_bias = -7.5;
   std::array<double, 6> shape_weights = {0.04, -0.21, 2.5, 6.3, 4.3, 1.8};
   double looks_trust = 1;      // of the log odds by colour and looks
-  double neighbour_trust = 1;  // of the mean log odds of neighbours of a like colour
+  double neighbour_trust = 2;  // of the mean log odds of neighbours of a like colour
   int rounds = 4;              // in which looks are learned and neighbours asked
+  double closing_m = 0.3;      // gaps in a roof that are narrower than twice this are closed
+  double opening_m = 1.0;      // roofs that are narrower than twice this are none
 };
 
 // `lines` are the straight edges of the picture.
@@ -42,11 +44,13 @@ std::vector<double> roof_probabilities(const RegionMap& map,
                                        const std::vector<RoofFeatures>& features,
                                        const RoofSettings& settings);
 
-// CV_32FC1: the probability at each pixel of the map; 0 where there is no region.
-cv::Mat roof_picture(const RegionMap& map, const std::vector<double>& probabilities);
+// CV_32FC1: the probability at each pixel of the map, closed and opened; 0 where there is no
+// region.
+cv::Mat roof_picture(const RegionMap& map, const std::vector<double>& probabilities,
+                     const RoofSettings& settings);
 
 struct RoofEdgeSettings {
-  double min_difference = 0.35;  // of the mean probability between both sides of a wall
+  double min_difference = 0.25;  // of the mean probability between both sides of a wall
   double near_m = 0.4;           // from the wall, where its sides begin
   double far_m = 1.3;            // and end
 };

@@ -4,15 +4,11 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "mapper/aerial/morphology.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
-
-cv::Mat disc(double radius_m, double metres_per_pixel) {
-  const int radius = std::max(1, static_cast<int>(std::lround(radius_m / metres_per_pixel)));
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
-}
 
 // Otsu's threshold: the one that parts the grey values into two classes whose means differ the
 // most.

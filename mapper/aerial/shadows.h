@@ -13,9 +13,9 @@ namespace milepost {
 struct ShadowSettings {
   double dark_share = 0.55;   // of Otsu's threshold: darker is in shadow
   double min_width_m = 0.6;   // of a shadow; narrower dark lines are none
-  double reach_m = 0.5;       // an edge this near a shadow's border is the shadow's
+  double reach_m = 0.3;       // an edge this near a shadow's border is the shadow's
   double smoothing_m = 0.3;   // of the gradient over the border
-  double max_angle_deg = 75;  // between the gradient of a far border and the light
+  double max_angle_deg = 30;  // between the gradient of a far border and the light
 };
 
 // The grey value below which a picture is in shadow, from its histogram of 256 grey values. A
