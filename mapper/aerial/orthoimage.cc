@@ -31,10 +31,11 @@ class QuietGdal {
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 
-  static std::string message() {
+  // " (MESSAGE)", or nothing where there was none.
+  static std::string in_brackets() {
     std::string text = CPLGetLastErrorMsg();
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+    return text.empty() ? text : " (" + text + ")";
   }
 };
 
@@ -208,7 +209,7 @@ Result<Orthoimage> Orthoimage::open(const fs::path& file, const std::string& ref
   Dataset source(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY), &GDALClose);
   if (source == nullptr) {
     return Error{ErrorCode::invalid_input, file.string(),
-                 "it is not an image that can be read (" + QuietGdal::message() + ")",
+                 "it is not an image that can be read" + QuietGdal::in_brackets(),
                  "give a GeoTIFF, or an image with a world file"};
   }
   const Bands bands = bands_of(*source);
@@ -229,7 +230,7 @@ Result<Orthoimage> Orthoimage::open(const fs::path& file, const std::string& ref
   }
   if (impl->picture == nullptr) {
     return Error{ErrorCode::invalid_input, file.string(),
-                 "it cannot be brought to the ground (" + QuietGdal::message() + ")",
+                 "it cannot be brought to the ground" + QuietGdal::in_brackets(),
                  "check its georeference"};
   }
   double transform[6];
@@ -256,8 +257,7 @@ Result<Picture> Orthoimage::read(const cv::Rect& block) const {
             GF_Read, inside.x, inside.y, inside.width, inside.height, plane.data, plane.cols,
             plane.rows, GDT_Byte, 1, static_cast<GSpacing>(plane.step[0]), nullptr) != CE_None) {
       return Error{ErrorCode::corrupt, impl_->file.string(),
-                   "it cannot be read through (" + QuietGdal::message() + ")",
-                   "fetch the image anew"};
+                   "it cannot be read through" + QuietGdal::in_brackets(), "fetch the image anew"};
     }
     planes.push_back(std::move(plane));
   }

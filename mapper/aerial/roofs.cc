@@ -20,6 +20,8 @@ namespace {
 
 constexpr double kLineWidthM = 0.8;      // of a straight line, for outlines that lie on it
 constexpr double kMaxLineTurnDeg = 25;   // between such a line and the outline
+constexpr double kOutsideM = 1;          // beyond an outline, what is outside is looked at
+constexpr double kLowEavesM = 2;         // the shadow of a roof is taken to be that of such eaves
 constexpr double kMinShadeCosine = 0.5;  // of an outline's normal with the shadow's direction
 constexpr double kNeighbourM = 0.6;      // apart are pixels whose regions are neighbours
 constexpr double kLikeColour = 6;        // distance in a and b at which colours are hardly alike
@@ -68,7 +70,7 @@ bool lies_on_line(const OutlinePoint& point, const cv::Mat& angles, double metre
 }
 
 RoofFeatures features_of(const Region& region, const RegionMap& map, const cv::Mat& angles,
-                         const Eigen::Vector2d& shadow_px) {
+                         const Eigen::Vector2d& shadow_px, double shade_reach_m) {
   double on_lines = 0;
   double shaded_points = 0;
   double shade = 0;
@@ -76,18 +78,19 @@ RoofFeatures features_of(const Region& region, const RegionMap& map, const cv::M
   double contrast = 0;
   for (const OutlinePoint& point : region.outline) {
     if (lies_on_line(point, angles, map.grid.metres_per_pixel)) ++on_lines;
-    double lightness = 0;
-    double green_here = 0;
+    const auto pixel_at = [&](double distance_m) {
+      return nearest_inside(point.at_px + distance_m / map.grid.metres_per_pixel * point.outward,
+                            map.kinds);
+    };
     Eigen::Vector3d outside = Eigen::Vector3d::Zero();
-    for (const double distance_m : {0.6, 1.0}) {
-      const cv::Point pixel = nearest_inside(
-          point.at_px + distance_m / map.grid.metres_per_pixel * point.outward, map.kinds);
+    double lightness = 0;
+    for (const double share : {0.6, 1.0}) {
+      const cv::Point pixel = pixel_at(share * kOutsideM);
       const auto& lab = map.lab.at<cv::Vec3f>(pixel);
       outside += Eigen::Vector3d(lab[0], lab[1], lab[2]) / 2;
-      lightness += lab[0] / 2.0;
-      green_here += map.kinds.at<std::uint8_t>(pixel) == kGreen ? 0.5 : 0;
+      green += map.kinds.at<std::uint8_t>(pixel) == kGreen ? 0.5 : 0;
+      lightness += map.lab.at<cv::Vec3f>(pixel_at(share * shade_reach_m))[0] / 2.0;
     }
-    green += green_here;
     contrast += (outside - region.mean_lab).norm();
     if (point.outward.dot(shadow_px) < kMinShadeCosine) continue;
     ++shaded_points;
@@ -205,10 +208,12 @@ std::vector<RoofFeatures> roof_features(const RegionMap& map, const WallLines& l
                                         const Sun& sun) {
   const cv::Mat angles = angles_of(lines, map);
   const Eigen::Vector2d shadow = shadow_direction(sun);
+  const double shade_reach_m =
+      std::min(kOutsideM, kLowEavesM / std::tan(sun.elevation_deg * kRadPerDeg));
   std::vector<RoofFeatures> features;
   features.reserve(map.regions.size());
   for (const Region& region : map.regions) {
-    features.push_back(features_of(region, map, angles, {shadow.x(), -shadow.y()}));
+    features.push_back(features_of(region, map, angles, {shadow.x(), -shadow.y()}, shade_reach_m));
   }
   return features;
 }
