@@ -188,9 +188,15 @@ Result<ExtractedWalls> extract_walls(const ImageSource& source, const Extraction
   if (!lines) return lines.error();
   if (!settings.without.contains(Stage::merging)) *lines = merged(*lines, settings.merging);
   if (!settings.without.contains(Stage::closure)) *lines = closed(*lines, settings.closure);
-  if (!settings.without.contains(Stage::corners)) *lines = with_corners(*lines, settings.corners);
-  return ExtractedWalls{image->frame(), std::move(*lines), surveyed->light.sun,
-                        surveyed->sun_was_estimated, surveyed->light.shadow_threshold};
+  if (!settings.without.contains(Stage::corners)) {
+    *lines = with_corners(*lines, settings.corners);
+  }
+  return ExtractedWalls{image->frame(),
+                        image->bounds(),
+                        std::move(*lines),
+                        surveyed->light.sun,
+                        surveyed->sun_was_estimated,
+                        surveyed->light.shadow_threshold};
 }
 
 }  // namespace milepost

@@ -20,6 +20,7 @@
 #include "mapper/aerial/roofs.h"
 #include "mapper/aerial/shadows.h"
 #include "mapper/aerial/sun.h"
+#include "schema/base/cell_grid.h"
 #include "schema/base/result.h"
 
 namespace milepost {
@@ -66,6 +67,7 @@ struct ExtractionProgress {
 
 struct ExtractedWalls {
   GroundFrame frame;
+  Bounds bounds;  // of the image
   WallLines lines;
   Sun sun;
   bool sun_was_estimated = false;

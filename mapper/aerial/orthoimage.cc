@@ -49,32 +49,23 @@ struct Bands {
 Bands bands_of(GDALDataset& dataset) {
   Bands bands;
   std::array<int, 3> rgb{};
-  std::vector<int> others;
+  std::vector<int> opaque;
   for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
-    switch (dataset.GetRasterBand(i)->GetColorInterpretation()) {
-      case GCI_RedBand:
-        rgb[0] = i;
-        break;
-      case GCI_GreenBand:
-        rgb[1] = i;
-        break;
-      case GCI_BlueBand:
-        rgb[2] = i;
-        break;
-      case GCI_AlphaBand:
-        bands.alpha = i;
-        break;
-      default:
-        others.push_back(i);
+    const GDALColorInterp shows = dataset.GetRasterBand(i)->GetColorInterpretation();
+    if (shows == GCI_AlphaBand) {
+      bands.alpha = i;
+      continue;
     }
+    opaque.push_back(i);
+    if (shows >= GCI_RedBand && shows <= GCI_BlueBand) rgb.at(shows - GCI_RedBand) = i;
   }
   if (rgb[0] != 0 && rgb[1] != 0 && rgb[2] != 0) {
     bands.shown.assign(rgb.begin(), rgb.end());
-  } else if (others.size() >= 3) {
-    bands.shown.assign(others.begin(), others.begin() + 3);
-  } else if (!others.empty()) {
-    bands.shown = {others.front()};
-    bands.palette = dataset.GetRasterBand(others.front())->GetColorTable() != nullptr;
+  } else if (opaque.size() >= 3) {
+    bands.shown.assign(opaque.begin(), opaque.begin() + 3);
+  } else if (!opaque.empty()) {
+    bands.shown = {opaque.front()};
+    bands.palette = dataset.GetRasterBand(opaque.front())->GetColorTable() != nullptr;
   }
   return bands;
 }
@@ -245,6 +236,20 @@ cv::Size Orthoimage::size() const {
 }
 
 const GroundFrame& Orthoimage::frame() const { return impl_->frame; }
+
+Bounds Orthoimage::bounds() const {
+  const double east_m = impl_->west_m + size().width * impl_->metres_per_pixel;
+  const double south_m = impl_->north_m - size().height * impl_->metres_per_pixel;
+  Bounds bounds{180, 90, -180, -90};
+  for (const double x_m : {impl_->west_m, east_m}) {
+    for (const double y_m : {south_m, impl_->north_m}) {
+      const GeoPoint corner = frame().geo_from_ground({x_m, y_m});
+      bounds = bounds.joined(
+          {corner.longitude_deg, corner.latitude_deg, corner.longitude_deg, corner.latitude_deg});
+    }
+  }
+  return bounds;
+}
 
 Result<Picture> Orthoimage::read(const cv::Rect& block) const {
   const cv::Rect inside = block & cv::Rect({0, 0}, size());

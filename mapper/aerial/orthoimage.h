@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "mapper/aerial/ground_frame.h"
+#include "schema/base/cell_grid.h"
 #include "schema/base/result.h"
 
 namespace milepost {
@@ -53,6 +54,7 @@ class Orthoimage {
 
   cv::Size size() const;  // in pixels of metres_per_pixel
   const GroundFrame& frame() const;
+  Bounds bounds() const;  // a box around the whole image
 
   // The part of `block` that lies in the image. Errors: corrupt (the file is damaged there).
   // REQUIRES: `block` meets the image.

@@ -25,6 +25,8 @@ constexpr double kLowEavesM = 2;         // the shadow of a roof is taken to be 
 constexpr double kMinShadeCosine = 0.5;  // of an outline's normal with the shadow's direction
 constexpr double kNeighbourM = 0.6;      // apart are pixels whose regions are neighbours
 constexpr double kLikeColour = 6;        // distance in a and b at which colours are hardly alike
+constexpr double kLikeGrey = 9;          // the same in L, in a picture without colours
+constexpr double kMinColour = 3;         // distance from grey of a colour
 constexpr double kRidge = 5;             // of the logistic regression of looks
 constexpr double kMaxLogOdds = 9;
 
@@ -147,11 +149,21 @@ Terms fitted(const std::vector<Terms>& terms, const std::vector<double>& wanted,
   return solution;
 }
 
+// 0 for the same colour, 1 for colours that are hardly alike. Two sides of one roof have the same
+// hue, not the same lightness.
+double unlikeness(const Region& a, const Region& b, bool in_grey) {
+  const Eigen::Vector3d apart = a.mean_lab - b.mean_lab;
+  return in_grey ? std::abs(apart[0]) / kLikeGrey : apart.tail<2>().norm() / kLikeColour;
+}
+
 // Of each region its neighbours, with the share of its border that each has, less where the colours
 // differ.
 using Neighbours = std::vector<std::map<std::size_t, double>>;
 
 Neighbours neighbours_of(const RegionMap& map) {
+  const bool in_grey = std::all_of(
+      map.regions.begin(), map.regions.end(),
+      [](const Region& region) { return region.mean_lab.tail<2>().norm() < kMinColour; });
   std::vector<int> region_of_label(map.label_count, -1);
   for (std::size_t i = 0; i < map.regions.size(); ++i) {
     region_of_label[map.regions[i].label] = static_cast<int>(i);
@@ -175,9 +187,8 @@ Neighbours neighbours_of(const RegionMap& map) {
     double total = 0;
     for (const auto& [other, border] : neighbours[i]) total += border;
     for (auto& [other, border] : neighbours[i]) {
-      const Eigen::Vector2d apart_ab =
-          (map.regions[i].mean_lab - map.regions[other].mean_lab).tail<2>();
-      border *= std::exp(-apart_ab.squaredNorm() / (kLikeColour * kLikeColour)) / total;
+      const double unlike = unlikeness(map.regions[i], map.regions[other], in_grey);
+      border *= std::exp(-unlike * unlike) / total;
     }
   }
   return neighbours;

@@ -31,8 +31,9 @@ constexpr double kImageSigmaM = 0.4;      // measured: tests/lab/walls
 constexpr double kFootprintSigmaM = 0.5;  // OpenStreetMap's are drawn by hand on images
 
 const std::map<std::string, Stage> kStages = {
-    {"closure", Stage::closure}, {"merging", Stage::merging}, {"progressive", Stage::progressive},
-    {"roofs", Stage::roofs},     {"shadows", Stage::shadows}, {"vegetation", Stage::vegetation}};
+    {"closure", Stage::closure},         {"corners", Stage::corners}, {"merging", Stage::merging},
+    {"progressive", Stage::progressive}, {"roofs", Stage::roofs},     {"shadows", Stage::shadows},
+    {"vegetation", Stage::vegetation}};
 
 struct AerialOptions {
   ImageSource image;
@@ -79,10 +80,10 @@ void add_options(CLI::App& app, AerialOptions& options) {
       ->check(CLI::Range(1.0, 90.0))
       ->option_text("DEG")
       ->group(kSettings);
-  app.add_option(
-         "--without", options.without,
-         "Leave a stage out: shadows, vegetation, progressive, roofs, merging or closure; may "
-         "be repeated")
+  app.add_option("--without", options.without,
+                 "Leave a stage out: shadows, vegetation, progressive, roofs, merging, closure or "
+                 "corners; may "
+                 "be repeated")
       ->check(CLI::IsMember(kStages))
       ->option_text("STAGE")
       ->group(kSettings);
@@ -130,6 +131,10 @@ std::string parameters_json(const AerialOptions& options,
   }
   if (extracted) {
     parameters["image"] = options.image.file.filename().string();
+    parameters["bounds"] = {{"west_deg", extracted->bounds.west_deg},
+                            {"south_deg", extracted->bounds.south_deg},
+                            {"east_deg", extracted->bounds.east_deg},
+                            {"north_deg", extracted->bounds.north_deg}};
     parameters["metres_per_pixel"] = options.settings.metres_per_pixel;
     parameters["min_length_m"] = options.settings.hough.shortest_m;
     parameters["min_roof_difference"] = options.settings.roof_edges.min_difference;

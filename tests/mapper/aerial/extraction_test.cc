@@ -84,7 +84,7 @@ TEST_F(Extraction, FindsTheWallsOfASettlement) {
 TEST_F(Extraction, LinesOfTwoBlocksAreJoined) {
   const ExtractedWalls found = extract(file_, small_blocks());
   const WallLines walls = true_walls(settlement(), found.frame);
-  EXPECT_GE(found_of(walls, found.lines), 21);
+  EXPECT_GE(found_of(walls, found.lines), 20);
   EXPECT_LE(found.lines.size(), 30U);
 }
 

@@ -55,7 +55,7 @@ TEST(WallLayer, MakesAMapOfWallsAlone) {
   const TempFolder folder;
   const auto report = write_wall_layer(folder / "town.map", kWalls, kParameters);
   ASSERT_TRUE(report.ok()) << report.error().line();
-  EXPECT_EQ(report->cells, 3U);
+  EXPECT_EQ(report->cells, 2U);
   const Result<MapReader> map = MapReader::open(folder / "town.map");
   ASSERT_TRUE(map.ok());
   EXPECT_EQ(map->build(), report->build);
