@@ -1,0 +1,20 @@
+// The walls of one block of an orthoimage.
+#pragma once
+
+#include "mapper/aerial/extraction.h"
+#include "mapper/aerial/stage_pictures.h"
+
+namespace milepost {
+
+// What is known of the whole image before its blocks are looked at.
+struct ImageLight {
+  Sun sun;
+  double shadow_threshold = 0;  // grey value
+};
+
+// The lines of the block, in its frame; merging and closure are still to be done. Safe from several
+// threads.
+WallLines block_walls(const Picture& picture, const ImageLight& light,
+                      const ExtractionSettings& settings, const StagePictures& pictures);
+
+}  // namespace milepost

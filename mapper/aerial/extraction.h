@@ -1,0 +1,87 @@
+// From an orthoimage to the walls of buildings: the aerial paper's section II, stage by stage, and
+// our own stage of roofs.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "mapper/aerial/closure.h"
+#include "mapper/aerial/clutter.h"
+#include "mapper/aerial/corners.h"
+#include "mapper/aerial/edge_maps.h"
+#include "mapper/aerial/ground_frame.h"
+#include "mapper/aerial/merging.h"
+#include "mapper/aerial/progressive_hough.h"
+#include "mapper/aerial/regions.h"
+#include "mapper/aerial/roofs.h"
+#include "mapper/aerial/shadows.h"
+#include "mapper/aerial/sun.h"
+#include "schema/base/cell_grid.h"
+#include "schema/base/result.h"
+
+namespace milepost {
+
+// What can be left out, to see what it is worth.
+enum class Stage {
+  shadows,      // far borders of shadows stay edges
+  vegetation,   // clutter stays
+  progressive,  // OpenCV's transform of one map instead of the progressive one of several
+  merging,
+  closure,
+  corners,  // ends of walls stay where their edges end
+  roofs     // lines stay that are no roof's edge
+};
+
+struct ExtractionSettings {
+  double metres_per_pixel = 0.1;
+  double block_m = 160;  // length of the sides of blocks
+  double margin_m = 20;  // that a block sees of its neighbours
+  std::set<Stage> without;
+  std::optional<double> sun_azimuth_deg;    // none: estimated from the shadows
+  std::optional<double> sun_elevation_deg;  // none: 45
+  EdgeSettings edges;
+  ShadowSettings shadows;
+  ClutterSettings clutter;
+  HoughSettings hough;
+  MergingSettings merging;
+  ClosureSettings closure;
+  CornerSettings corners;
+  RegionSettings regions;
+  RoofSettings roofs;
+  RoofEdgeSettings roof_edges;
+};
+
+struct ImageSource {
+  std::filesystem::path file;
+  std::string reference;  // where the image does not say what its coordinates are
+};
+
+struct ExtractionProgress {
+  std::size_t blocks_done = 0;
+  std::size_t blocks_total = 0;
+};
+
+struct ExtractedWalls {
+  GroundFrame frame;
+  Bounds bounds;  // of the image
+  WallLines lines;
+  Sun sun;
+  bool sun_was_estimated = false;
+  double shadow_threshold = 0;  // grey value
+};
+
+// Reads the image in blocks that overlap, so that memory depends on their size and on the number
+// of walls, not on the image; what two blocks found of one line is joined. The walls do not depend
+// on `jobs`, the number of threads. With `pictures`, a folder that exists, each stage of each block
+// is drawn there. `on_progress` is called from one thread at a time; the work ends with `cancelled`
+// once it returns false. Errors: those of Orthoimage; io; cancelled.
+Result<ExtractedWalls> extract_walls(
+    const ImageSource& image, const ExtractionSettings& settings, int jobs,
+    const std::filesystem::path& pictures,
+    const std::function<bool(const ExtractionProgress&)>& on_progress);
+
+}  // namespace milepost

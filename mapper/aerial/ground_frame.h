@@ -1,0 +1,32 @@
+// Metres on the ground about a place.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+#include <GeographicLib/TransverseMercator.hpp>
+
+#include "schema/geo/geodesy.h"
+
+namespace milepost {
+
+// The transverse Mercator grid about an origin, true to scale on its meridian; 10 km to the side
+// its metres are a millionth too long. Immutable, so safe to share between threads.
+class GroundFrame {
+ public:
+  explicit GroundFrame(const GeoPoint& origin);
+
+  const GeoPoint& origin() const { return origin_; }
+  // Metres east and north of the origin; altitudes play no part.
+  Eigen::Vector2d ground_from_geo(const GeoPoint& point) const;
+  GeoPoint geo_from_ground(const Eigen::Vector2d& ground_m) const;
+  // The same grid as a PROJ string.
+  std::string proj() const;
+
+ private:
+  GeographicLib::TransverseMercator projection_;
+  GeoPoint origin_;
+  double origin_northing_m_ = 0;  // from the equator
+};
+
+}  // namespace milepost

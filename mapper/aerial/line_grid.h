@@ -1,0 +1,29 @@
+// Which lines pass near a place.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "mapper/aerial/wall_line.h"
+
+namespace milepost {
+
+// Lines, by numbers of the caller's, in the square cells that they pass through.
+class LineGrid {
+ public:
+  explicit LineGrid(double cell_m) : cell_m_(cell_m) {}
+
+  void add(std::size_t number, const WallLine& line);
+
+  // The numbers, ascending and each once, of all lines within one cell's width of `line`, and of
+  // some that are farther.
+  std::vector<std::size_t> near(const WallLine& line) const;
+
+ private:
+  double cell_m_;
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
+};
+
+}  // namespace milepost

@@ -1,0 +1,93 @@
+#include "mapper/aerial/wall_layer.h"
+
+#include "schema/store/map_store.h"
+#include "schema/tile/codec.h"
+#include "schema/tile/table.h"
+
+namespace milepost {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kLayer = "walls";
+
+Status copy_segment(const MapReader& from, const std::string& id, MapWriter& to) {
+  const Result<StoredSegment> segment = from.segment(id);
+  if (!segment) return segment.error();
+  if (const Status status = to.add_segment(*segment); !status) return status;
+  for (const auto& [layer, parameters] : from.layers()) {
+    const Result<std::vector<TileEntry>> index = from.tile_index(id, layer);
+    if (!index) return index.error();
+    for (const TileEntry& tile : *index) {
+      const Result<Bytes> frame = from.tile(id, layer, tile.index);
+      if (!frame) return frame.error();
+      const Status status = to.add_tile(id, layer, tile.index, tile.along, tile.items, *frame);
+      if (!status) return status;
+    }
+  }
+  return ok_status();
+}
+
+Status copy_cells(const MapReader& from, const std::string& layer, MapWriter& to) {
+  const Result<std::vector<CellEntry>> index = from.cell_index(layer);
+  if (!index) return index.error();
+  for (const CellEntry& cell : *index) {
+    const Result<Bytes> frame = from.cell(layer, cell.cell);
+    if (!frame) return frame.error();
+    const Status status = to.add_cell(layer, cell.cell, cell.items, *frame);
+    if (!status) return status;
+  }
+  return ok_status();
+}
+
+// Everything but the walls.
+Status copy_others(const MapReader& from, MapWriter& to) {
+  if (const Status status = to.set_feature_json(from.feature_json()); !status) return status;
+  for (const auto& [layer, parameters] : from.layers()) {
+    if (layer == kLayer) continue;
+    if (const Status status = to.add_layer(layer, parameters); !status) return status;
+    if (const Status status = copy_cells(from, layer, to); !status) return status;
+  }
+  for (const std::string& id : from.segment_ids()) {
+    if (const Status status = copy_segment(from, id, to); !status) return status;
+  }
+  return ok_status();
+}
+
+Status add_walls(const std::vector<WallTile>& tiles, const fs::path& map_file, MapWriter& to) {
+  for (const WallTile& tile : tiles) {
+    if (tile.walls.size() > kMaxWallsPerTile) {
+      return Error{ErrorCode::invalid_input,
+                   map_file.string() + ", cell " + std::to_string(tile.cell),
+                   "it would hold " + std::to_string(tile.walls.size()) + " walls, more than " +
+                       std::to_string(kMaxWallsPerTile),
+                   "ask for longer lines"};
+    }
+    const Status status = to.add_cell(kLayer, tile.cell, tile.walls.size(), encode_walls(tile));
+    if (!status) return status;
+  }
+  return ok_status();
+}
+
+}  // namespace
+
+Result<WallLayerReport> write_wall_layer(const fs::path& map_file, const std::vector<Wall>& walls,
+                                         const std::string& parameters_json) {
+  Result<MapWriter> writer = MapWriter::create(map_file);
+  if (!writer) return writer.error();
+  std::error_code ignored;
+  if (fs::exists(map_file, ignored)) {
+    const Result<MapReader> old = MapReader::open(map_file);
+    if (!old) return old.error();
+    if (const Status status = copy_others(*old, *writer); !status) return status.error();
+  }
+  if (const Status status = writer->add_layer(kLayer, parameters_json); !status) {
+    return status.error();
+  }
+  const std::vector<WallTile> tiles = tiles_of(walls);
+  if (const Status status = add_walls(tiles, map_file, *writer); !status) return status.error();
+  Result<std::string> build = writer->finish();
+  if (!build) return build.error();
+  return WallLayerReport{std::move(*build), tiles.size()};
+}
+
+}  // namespace milepost

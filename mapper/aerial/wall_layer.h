@@ -1,0 +1,25 @@
+// The layer `walls` of a map.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/tile/wall.h"
+
+namespace milepost {
+
+struct WallLayerReport {
+  std::string build;
+  std::size_t cells = 0;
+};
+
+// Writes a map with the walls in the layer `walls`. Where `map_file` exists, all else that it holds
+// is kept and only this layer is replaced. The file appears whole or not at all. `parameters_json`
+// are the layer's. Errors: corrupt (the old map), invalid_input (too many walls in one place), io.
+Result<WallLayerReport> write_wall_layer(const std::filesystem::path& map_file,
+                                         const std::vector<Wall>& walls,
+                                         const std::string& parameters_json);
+
+}  // namespace milepost

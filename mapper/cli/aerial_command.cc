@@ -1,0 +1,255 @@
+#include "mapper/cli/aerial_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "mapper/aerial/coverage.h"
+#include "mapper/aerial/extraction.h"
+#include "mapper/aerial/footprints.h"
+#include "mapper/aerial/wall_geojson.h"
+#include "mapper/aerial/wall_layer.h"
+#include "schema/base/file.h"
+#include "schema/command/command.h"
+
+namespace milepost {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSettings = "Settings (each changes the walls)";
+constexpr double kImageSigmaM = 0.4;      // measured: tests/lab/walls
+constexpr double kFootprintSigmaM = 0.5;  // OpenStreetMap's are drawn by hand on images
+
+const std::map<std::string, Stage> kStages = {
+    {"closure", Stage::closure},         {"corners", Stage::corners}, {"merging", Stage::merging},
+    {"progressive", Stage::progressive}, {"roofs", Stage::roofs},     {"shadows", Stage::shadows},
+    {"vegetation", Stage::vegetation}};
+
+struct AerialOptions {
+  ImageSource image;
+  std::string footprints;
+  std::string map;
+  std::string geojson;
+  std::string debug_images;
+  std::vector<std::string> without;
+  double sun_azimuth_deg = 0;
+  double sun_elevation_deg = 0;
+  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  ExtractionSettings settings;
+};
+
+void add_options(CLI::App& app, AerialOptions& options) {
+  app.add_option("--image", options.image.file, "Orthoimage to find walls in")->option_text("FILE");
+  app.add_option("--image-crs", options.image.reference,
+                 "What the image's coordinates are, where it does not say: EPSG:3857")
+      ->option_text("CRS");
+  app.add_option("--footprints", options.footprints,
+                 "GeoJSON of building outlines, which become walls as they are")
+      ->option_text("FILE");
+  app.add_option("--map", options.map,
+                 "Map file to write the layer walls into; all else that it holds stays")
+      ->required()
+      ->option_text("FILE");
+  app.add_option("--geojson", options.geojson, "File to write the walls to as lines, too")
+      ->option_text("FILE");
+  app.add_option("--debug-images", options.debug_images,
+                 "Folder for a picture of each stage of each block")
+      ->option_text("DIR");
+  add_number(app, "--jobs", options.jobs, "N",
+             "Threads that look at blocks; the walls are the same for any number", 1, 256);
+
+  ExtractionSettings& settings = options.settings;
+  app.add_option("--sun-azimuth-deg", options.sun_azimuth_deg,
+                 "Where the light came from, clockwise from north (0 to 360; without it: estimated "
+                 "from the shadows)")
+      ->check(CLI::Range(0.0, 360.0))
+      ->option_text("DEG")
+      ->group(kSettings);
+  app.add_option("--sun-elevation-deg", options.sun_elevation_deg,
+                 "The sun's height above the horizon (1 to 90; without it: 45)")
+      ->check(CLI::Range(1.0, 90.0))
+      ->option_text("DEG")
+      ->group(kSettings);
+  app.add_option("--without", options.without,
+                 "Leave a stage out: shadows, vegetation, progressive, roofs, merging, closure or "
+                 "corners; may "
+                 "be repeated")
+      ->check(CLI::IsMember(kStages))
+      ->option_text("STAGE")
+      ->group(kSettings);
+  add_number(app, "--metres-per-pixel", settings.metres_per_pixel, "M",
+             "Size of a pixel on the ground that is worked with", 0.02, 1)
+      ->group(kSettings);
+  add_number(app, "--min-length-m", settings.hough.shortest_m, "M", "Least length of a line", 0.5,
+             20)
+      ->group(kSettings);
+  add_number(app, "--min-roof-difference", settings.roof_edges.min_difference, "X",
+             "Between both sides of a wall, of the probability to be a roof", 0, 1)
+      ->group(kSettings);
+}
+
+Wall wall_of(const WallLine& line, const GroundFrame& frame) {
+  const GeoPoint begin = frame.geo_from_ground(line.begin_m);
+  const GeoPoint end = frame.geo_from_ground(line.end_m);
+  return {{begin.latitude_deg, begin.longitude_deg},
+          {end.latitude_deg, end.longitude_deg},
+          kImageSigmaM};
+}
+
+WallLine line_of(const Wall& wall, const GroundFrame& frame) {
+  return {frame.ground_from_geo({wall.begin.latitude_deg, wall.begin.longitude_deg, 0}),
+          frame.ground_from_geo({wall.end.latitude_deg, wall.end.longitude_deg, 0})};
+}
+
+// The walls of footprints, and those of the image that no footprint has.
+std::vector<Wall> all_walls(std::vector<Wall> footprints,
+                            const std::optional<ExtractedWalls>& extracted) {
+  if (!extracted) return footprints;
+  WallLines known;
+  for (const Wall& wall : footprints) known.push_back(line_of(wall, extracted->frame));
+  for (const WallLine& line : not_covered(extracted->lines, known, {})) {
+    footprints.push_back(wall_of(line, extracted->frame));
+  }
+  return footprints;
+}
+
+std::string parameters_json(const AerialOptions& options,
+                            const std::optional<ExtractedWalls>& extracted) {
+  Json parameters = {{"items", "walls"}};
+  if (!options.footprints.empty()) {
+    parameters["footprints"] = fs::path(options.footprints).filename().string();
+  }
+  if (extracted) {
+    parameters["image"] = options.image.file.filename().string();
+    parameters["bounds"] = {{"west_deg", extracted->bounds.west_deg},
+                            {"south_deg", extracted->bounds.south_deg},
+                            {"east_deg", extracted->bounds.east_deg},
+                            {"north_deg", extracted->bounds.north_deg}};
+    parameters["metres_per_pixel"] = options.settings.metres_per_pixel;
+    parameters["min_length_m"] = options.settings.hough.shortest_m;
+    parameters["min_roof_difference"] = options.settings.roof_edges.min_difference;
+    parameters["without"] = options.without;
+    parameters["sun"] = {{"azimuth_deg", extracted->sun.azimuth_deg},
+                         {"elevation_deg", extracted->sun.elevation_deg},
+                         {"estimated", extracted->sun_was_estimated}};
+  }
+  return parameters.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string summary_line(const AerialOptions& options, const WallLayerReport& report,
+                         const std::vector<Wall>& walls,
+                         const std::optional<ExtractedWalls>& extracted) {
+  double length_m = 0;
+  for (const Wall& wall : walls) {
+    length_m += geodesic_distance_m({wall.begin.latitude_deg, wall.begin.longitude_deg, 0},
+                                    {wall.end.latitude_deg, wall.end.longitude_deg, 0});
+  }
+  std::ostringstream line;
+  line << std::fixed << std::setprecision(0) << options.map << ": build " << report.build << ", "
+       << walls.size() << " walls of " << length_m << " m in " << report.cells
+       << (report.cells == 1 ? " cell" : " cells");
+  if (extracted) {
+    line << ", sun at azimuth " << extracted->sun.azimuth_deg << " degrees"
+         << (extracted->sun_was_estimated ? " (estimated from the shadows)" : "");
+  }
+  return line.str();
+}
+
+Result<std::optional<ExtractedWalls>> extracted_walls(const AerialOptions& options) {
+  if (options.image.file.empty()) return std::optional<ExtractedWalls>();
+  ProgressLine progress;
+  Result<ExtractedWalls> extracted =
+      extract_walls(options.image, options.settings, options.jobs, options.debug_images,
+                    [&](const ExtractionProgress& at) {
+                      progress.show("block " + std::to_string(at.blocks_done) + " of " +
+                                    std::to_string(at.blocks_total));
+                      return !stop_requested();
+                    });
+  if (!extracted) return extracted.error();
+  return std::optional(std::move(*extracted));
+}
+
+Status make_folder(const std::string& folder) {
+  if (folder.empty()) return ok_status();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return ok_status();
+  return Error{ErrorCode::io, folder, "the folder cannot be made (" + error.message() + ")",
+               "give another one with --debug-images"};
+}
+
+}  // namespace
+
+int run_aerial(const std::string& program, std::vector<std::string> words) {
+  CLI::App app(
+      "Finds the walls of buildings from above and writes them into a map as its layer walls, by\n"
+      "which a vehicle finds itself without GPS.\n\n"
+      "With --image an orthoimage is searched, of any size, resolution and projection that GDAL\n"
+      "reads: edges at several settings; without the borders that shadows have on the ground, and\n"
+      "without vegetation; lines, the longest first; roofs, by shape, shadow and the colours that\n"
+      "the image's own clearest roofs have, and the lines at their edges; then what is one line "
+      "is\n"
+      "joined, and lines that meet no other at either end are left out.\n"
+      "With --footprints the outlines of a GeoJSON file (WGS84), as OpenStreetMap has them, "
+      "become\n"
+      "walls, and the image, if there is one, adds those that it knows beside them.\n"
+      "An old map keeps its segments and other layers, its old walls are replaced; the file is\n"
+      "changed when all is done.\n"
+      "Example: milepost-mapper aerial --image town.tif --map maps/town.map\n"
+      "         milepost-mapper aerial --footprints town.geojson --map maps/town.map",
+      program);
+  AerialOptions options;
+  add_options(app, options);
+  if (const auto code = parse_words(app, std::move(words))) return *code;
+  if (options.image.file.empty() && options.footprints.empty()) {
+    std::cerr << program << ": --image or --footprints is required; see '" << program
+              << " --help'\n";
+    return kExitWrongCall;
+  }
+  for (const std::string& stage : options.without) {
+    options.settings.without.insert(kStages.at(stage));
+  }
+  if (app.count("--sun-azimuth-deg") > 0) {
+    options.settings.sun_azimuth_deg = options.sun_azimuth_deg;
+  }
+  if (app.count("--sun-elevation-deg") > 0) {
+    options.settings.sun_elevation_deg = options.sun_elevation_deg;
+  }
+
+  catch_stop_signals();
+  cv::setNumThreads(1);  // one block a thread uses the cores better than many threads a block
+  std::vector<Wall> footprints;
+  if (!options.footprints.empty()) {
+    Result<std::vector<Wall>> read = read_footprints(options.footprints);
+    if (!read) return fail(program, read.error());
+    footprints = std::move(*read);
+  }
+  for (Wall& wall : footprints) wall.sigma_m = kFootprintSigmaM;
+  if (const Status made = make_folder(options.debug_images); !made) {
+    return fail(program, made.error());
+  }
+  const Result<std::optional<ExtractedWalls>> extracted = extracted_walls(options);
+  if (!extracted) return fail(program, extracted.error());
+  const std::vector<Wall> walls = all_walls(std::move(footprints), *extracted);
+  const Result<WallLayerReport> report =
+      write_wall_layer(options.map, walls, parameters_json(options, *extracted));
+  if (!report) return fail(program, report.error());
+  if (!options.geojson.empty()) {
+    const Status written = write_text_file(options.geojson, geojson_of(walls));
+    if (!written) return fail(program, written.error());
+  }
+  std::cout << summary_line(options, *report, walls, *extracted) << "\n";
+  return kExitDone;
+}
+
+}  // namespace milepost

@@ -1,0 +1,134 @@
+// The stages that have lines for input: blocks, merging, closure, corners, coverage.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mapper/aerial/block_plan.h"
+#include "mapper/aerial/closure.h"
+#include "mapper/aerial/corners.h"
+#include "mapper/aerial/coverage.h"
+#include "mapper/aerial/line_grid.h"
+#include "mapper/aerial/merging.h"
+
+namespace milepost {
+namespace {
+
+WallLine line(double x1, double y1, double x2, double y2) { return {{x1, y1}, {x2, y2}}; }
+
+void expect_line(const WallLine& found, const WallLine& wanted, double within_m = 1e-6) {
+  EXPECT_LT((found.begin_m - wanted.begin_m).norm(), within_m) << found.begin_m.transpose();
+  EXPECT_LT((found.end_m - wanted.end_m).norm(), within_m) << found.end_m.transpose();
+}
+
+TEST(BlockPlan, CoresCoverTheImageOnceAndMarginsStayInIt) {
+  const cv::Size image(1030, 410);
+  cv::Mat covered = cv::Mat::zeros(image, CV_8UC1);
+  for (const Block& block : blocks_of(image, 200, 30)) {
+    covered(block.core) += 1;
+    EXPECT_EQ(block.seen & cv::Rect({0, 0}, image), block.seen);
+    EXPECT_EQ(block.core & block.seen, block.core);
+    EXPECT_EQ(block.seen.x, std::max(0, block.core.x - 30));
+  }
+  EXPECT_EQ(cv::countNonZero(covered != 1), 0);
+}
+
+TEST(BlockPlan, LinesAreCutAtTheBox) {
+  const GroundBox box{0, 0, 10, 10};
+  const WallLines parts = clipped({line(-5, 5, 15, 5), line(2, 2, 3, 3), line(-1, -5, -1, 5),
+                                   line(5, 12, 5, 8), line(8, 12, 12, 8)},
+                                  box);
+  ASSERT_EQ(parts.size(), 3U);
+  expect_line(parts[0], line(0, 5, 10, 5));
+  expect_line(parts[1], line(2, 2, 3, 3));
+  expect_line(parts[2], line(5, 10, 5, 8));
+}
+
+TEST(LineGrid, FindsWhatIsNearAndNotWhatIsFar) {
+  LineGrid grid(2);
+  grid.add(0, line(0, 0, 30, 0));
+  grid.add(1, line(0, 50, 30, 50));
+  EXPECT_EQ(grid.near(line(29, 1, 29, 1)), std::vector<std::size_t>{0});
+  EXPECT_EQ(grid.near(line(29, 1, 29, 49)), (std::vector<std::size_t>{0, 1}));
+  EXPECT_TRUE(grid.near(line(60, 20, 70, 20)).empty());
+}
+
+TEST(Merging, PiecesOfOneLineBecomeOne) {
+  const WallLines lines = merged({line(0, 0, 4, 0.1), line(4.5, 0.1, 9, 0), line(0, 5, 3, 5)}, {});
+  ASSERT_EQ(lines.size(), 2U);
+  expect_line(lines[0], line(0, 0.05, 9, 0.05), 0.1);
+  expect_line(lines[1], line(0, 5, 3, 5));
+}
+
+TEST(Merging, TheLongestPartTellsTheSense) {
+  const WallLines lines = merged({line(0, 0, 2, 0), line(9, 0.05, 2.3, 0.05)}, {});
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_GT(lines[0].begin_m.x(), lines[0].end_m.x());
+}
+
+TEST(Merging, ParallelsApartAndCrossingLinesStay) {
+  EXPECT_EQ(merged({line(0, 0, 9, 0), line(0, 0.6, 9, 0.6)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 9, 0), line(0, 0, 9, 2)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 4, 0), line(5.5, 0, 9, 0)}, {}).size(), 2U);
+}
+
+TEST(Merging, DoesNotDependOnTheOrder) {
+  WallLines lines = {line(0, 0, 4, 0.1), line(4.5, 0.1, 9, 0), line(9.2, 0, 12, 0.1),
+                     line(0, 5, 3, 5), line(3.5, 5.1, 6, 5)};
+  const WallLines once = merged(lines, {});
+  std::reverse(lines.begin(), lines.end());
+  const WallLines again = merged(lines, {});
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t i = 0; i < once.size(); ++i) expect_line(again[i], once[i], 1e-9);
+}
+
+TEST(Closure, AHouseStandsAndALoneLineDoesNot) {
+  const WallLines house = {line(0, 0, 10, 0), line(10, 0.5, 10, 8), line(10, 8, 0, 8),
+                           line(0, 8, 0, 0)};
+  WallLines lines = house;
+  lines.insert(lines.begin() + 2, line(30, 0, 40, 0));
+  const WallLines left = closed(lines, {});
+  ASSERT_EQ(left.size(), house.size());
+  for (std::size_t i = 0; i < house.size(); ++i) expect_line(left[i], house[i]);
+}
+
+TEST(Closure, GoesOnUntilAllThatIsLeftStands) {
+  ClosureSettings both_ends;
+  both_ends.min_ends = 2;
+  const WallLines chain = {line(0, 0, 10, 0), line(10, 0, 10, 10), line(10, 10, 20, 10)};
+  EXPECT_EQ(closed(chain, {}).size(), 3U);
+  EXPECT_TRUE(closed(chain, both_ends).empty());
+}
+
+TEST(Corners, EndsAreLedTogether) {
+  const WallLines lines = with_corners({line(0, 0, 9, 0), line(10, 1, 10, 8)}, {});
+  expect_line(lines[0], line(0, 0, 10, 0));
+  expect_line(lines[1], line(10, 0, 10, 8));
+}
+
+TEST(Corners, WhatIsFarOrAlmostParallelStays) {
+  const WallLines far = {line(0, 0, 7, 0), line(10, 1, 10, 8)};
+  expect_line(with_corners(far, {})[0], far[0]);
+  const WallLines flat = {line(0, 0, 9, 0), line(9.5, 0.1, 19, 2)};
+  expect_line(with_corners(flat, {})[0], flat[0]);
+}
+
+TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
+  const WallLines lines =
+      with_corners({line(0, 0, 9, 0), line(9.5, 0.5, 9.5, 8), line(10.5, 0.5, 10.5, 8)}, {});
+  EXPECT_NEAR(lines[0].end_m.x(), 9.5, 1e-9);
+  expect_line(lines[2], line(10.5, 0.5, 10.5, 8));
+}
+
+TEST(Coverage, WhatIsKnownIsLeftOut) {
+  const WallLines known = {line(0, 0, 10, 0)};
+  const WallLines lines = {line(1, 1, 9, 1.2), line(8, 0.5, 18, 0.5), line(5, 0, 5, 6),
+                           line(0, 3, 10, 3)};
+  const WallLines others = not_covered(lines, known, {});
+  ASSERT_EQ(others.size(), 3U);
+  expect_line(others[0], lines[1]);
+  expect_line(others[1], lines[2]);
+  expect_line(others[2], lines[3]);
+}
+
+}  // namespace
+}  // namespace milepost

@@ -1,0 +1,183 @@
+#include "mapper/aerial/orthoimage.h"
+
+#include <gdal_priv.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <memory>
+
+#include "mapper/aerial/ground_frame.h"
+#include "schema/base/file.h"
+#include "tests/support/temp_folder.h"
+
+namespace milepost {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::TempFolder;
+
+const GeoPoint kPlace{60, 10.5, 0};
+constexpr int kSide = 200;          // pixels of the images below
+constexpr double kMercatorM = 0.4;  // a pixel of EPSG:3857: 0.2 m on the ground at latitude 60
+
+TEST(GroundFrame, MetresAreThoseOfTheEllipsoid) {
+  const GroundFrame frame(kPlace);
+  EXPECT_LT(frame.ground_from_geo(kPlace).norm(), 1e-6);
+  const GeoPoint there = frame.geo_from_ground({300, -400});
+  EXPECT_NEAR(geodesic_distance_m(kPlace, there), 500, 1e-3);
+  EXPECT_NEAR(geodesic_azimuth_deg(kPlace, there), 143.13, 0.01);
+  EXPECT_LT((frame.ground_from_geo(there) - Eigen::Vector2d(300, -400)).norm(), 1e-6);
+}
+
+// An image of kSide x kSide pixels about kPlace in Web Mercator. `fill` has the planes' values.
+void write_image(const std::filesystem::path& file, const std::vector<GDALColorInterp>& bands,
+                 const std::function<int(int band, int x, int y)>& fill,
+                 GDALDataType type = GDT_Byte, bool georeferenced = true) {
+  GDALAllRegister();
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  const std::unique_ptr<GDALDataset> dataset(
+      driver->Create(file.c_str(), kSide, kSide, static_cast<int>(bands.size()), type, nullptr));
+  ASSERT_NE(dataset, nullptr);
+  if (georeferenced) {
+    const double x_m = 6378137 * kPlace.longitude_deg * kRadPerDeg;
+    const double y_m = 6378137 * std::log(std::tan((45 + kPlace.latitude_deg / 2) * kRadPerDeg));
+    double transform[6] = {x_m - kSide * kMercatorM / 2, kMercatorM, 0,
+                           y_m + kSide * kMercatorM / 2, 0,          -kMercatorM};
+    OGRSpatialReference reference;
+    ASSERT_EQ(reference.importFromEPSG(3857), OGRERR_NONE);
+    ASSERT_EQ(dataset->SetGeoTransform(transform), CE_None);
+    ASSERT_EQ(dataset->SetSpatialRef(&reference), CE_None);
+  }
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    GDALRasterBand* const band = dataset->GetRasterBand(static_cast<int>(i) + 1);
+    ASSERT_EQ(band->SetColorInterpretation(bands[i]), CE_None);
+    for (int y = 0; y < kSide; ++y) {
+      std::vector<std::int32_t> row(kSide);
+      for (int x = 0; x < kSide; ++x) row[x] = fill(static_cast<int>(i), x, y);
+      ASSERT_EQ(band->RasterIO(GF_Write, 0, y, kSide, 1, row.data(), kSide, 1, GDT_Int32, 0, 0),
+                CE_None);
+    }
+  }
+}
+
+const std::vector<GDALColorInterp> kRgb = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand};
+
+cv::Vec3b middle_of(const Picture& picture) {
+  return picture.bgr.at<cv::Vec3b>(picture.bgr.rows / 2, picture.bgr.cols / 2);
+}
+
+Picture read_all(const std::filesystem::path& file, double metres_per_pixel) {
+  const Result<Orthoimage> image = Orthoimage::open(file, "", metres_per_pixel);
+  EXPECT_TRUE(image.ok()) << image.error().line();
+  const Result<Picture> picture = image->read(cv::Rect({0, 0}, image->size()));
+  EXPECT_TRUE(picture.ok());
+  return *picture;
+}
+
+std::string refusal(const std::filesystem::path& file) {
+  const Result<Orthoimage> image = Orthoimage::open(file, "", 0.1);
+  return image.ok() ? "" : image.error().line();
+}
+
+TEST(Orthoimage, PixelsAreMetresOnTheGround) {
+  const TempFolder folder;
+  write_image(folder / "a.tif", kRgb, [](int, int x, int) { return x < kSide / 2 ? 40 : 200; });
+  const Picture picture = read_all(folder / "a.tif", 0.1);
+  EXPECT_NEAR(picture.bgr.cols, 400, 4);
+  EXPECT_NEAR(picture.bgr.rows, 400, 4);
+  int first_bright = 0;
+  while (picture.bgr.at<cv::Vec3b>(200, first_bright)[0] < 120) ++first_bright;
+  EXPECT_NEAR(picture.grid.ground_from_pixel({first_bright - 0.5, 200}).x(), 0, 0.1);
+}
+
+TEST(Orthoimage, ABlockIsAPartOfTheWhole) {
+  const TempFolder folder;
+  write_image(folder / "a.tif", kRgb,
+              [](int band, int x, int y) { return (x * 3 + y * 7 + band * 50) % 256; });
+  const Picture whole = read_all(folder / "a.tif", 0.1);
+  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "", 0.1);
+  const cv::Rect block(130, 70, 90, 110);
+  const Result<Picture> part = image->read(block);
+  ASSERT_TRUE(part.ok());
+  EXPECT_EQ(cv::norm(part->bgr, whole.bgr(block), cv::NORM_INF), 0);
+  EXPECT_LT((part->grid.ground_from_pixel({3, 5}) - whole.grid.ground_from_pixel({133, 75})).norm(),
+            1e-9);
+}
+
+TEST(Orthoimage, BandsAreReadByWhatTheyShow) {
+  const TempFolder folder;
+  const auto fill = [](int band, int, int) { return 50 + 60 * band; };
+  write_image(folder / "rgb.tif", kRgb, fill);
+  EXPECT_EQ(middle_of(read_all(folder / "rgb.tif", 0.2)), cv::Vec3b(170, 110, 50));
+  write_image(folder / "bgr.tif", {GCI_BlueBand, GCI_GreenBand, GCI_RedBand}, fill);
+  EXPECT_EQ(middle_of(read_all(folder / "bgr.tif", 0.2)), cv::Vec3b(50, 110, 170));
+  write_image(folder / "grey.tif", {GCI_GrayIndex}, fill);
+  EXPECT_EQ(middle_of(read_all(folder / "grey.tif", 0.2)), cv::Vec3b(50, 50, 50));
+}
+
+TEST(Orthoimage, TransparencyAndNoDataAreGaps) {
+  const TempFolder folder;
+  const auto half_clear = [](int band, int x, int) {
+    return band == 3 ? (x < kSide / 2 ? 0 : 255) : 90;
+  };
+  write_image(folder / "rgba.tif", {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand},
+              half_clear);
+  const cv::Mat covered = read_all(folder / "rgba.tif", 0.2).covered;
+  EXPECT_EQ(covered.at<std::uint8_t>(100, 50), 0);
+  EXPECT_EQ(covered.at<std::uint8_t>(100, 150), 255);
+
+  write_image(folder / "grey.tif", {GCI_GrayIndex},
+              [](int, int x, int) { return x < kSide / 2 ? 0 : 90; });
+  std::unique_ptr<GDALDataset>(
+      GDALDataset::Open((folder / "grey.tif").c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE))
+      ->GetRasterBand(1)
+      ->SetNoDataValue(0);
+  const cv::Mat with_data = read_all(folder / "grey.tif", 0.2).covered;
+  EXPECT_EQ(with_data.at<std::uint8_t>(100, 50), 0);
+  EXPECT_EQ(with_data.at<std::uint8_t>(100, 150), 255);
+}
+
+TEST(Orthoimage, AWorldFileNeedsAReference) {
+  const TempFolder folder;
+  write_image(
+      folder / "a.tif", kRgb, [](int, int, int) { return 90; }, GDT_Byte, false);
+  std::ofstream(folder / "a.tfw") << "0.4\n0\n0\n-0.4\n1168854\n8399738\n";
+  EXPECT_THAT(refusal(folder / "a.tif"), AllOf(HasSubstr("a.tif"), HasSubstr("--image-crs")));
+  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "EPSG:3857", 0.1);
+  ASSERT_TRUE(image.ok());
+  EXPECT_NEAR(image->frame().origin().latitude_deg, 60, 0.01);
+  EXPECT_FALSE(Orthoimage::open(folder / "a.tif", "EPSG:nothing", 0.1).ok());
+}
+
+TEST(Orthoimage, WhatCannotBeUsedIsRefused) {
+  const TempFolder folder;
+  EXPECT_THAT(refusal(folder / "missing.tif"), HasSubstr("no such file"));
+  ASSERT_TRUE(write_text_file(folder / "text.tif", "not an image").ok());
+  EXPECT_THAT(refusal(folder / "text.tif"), HasSubstr("not an image that can be read"));
+  write_image(
+      folder / "nowhere.tif", kRgb, [](int, int, int) { return 90; }, GDT_Byte, false);
+  EXPECT_THAT(refusal(folder / "nowhere.tif"), HasSubstr("no georeference"));
+  write_image(
+      folder / "deep.tif", kRgb, [](int, int, int) { return 900; }, GDT_UInt16);
+  EXPECT_THAT(refusal(folder / "deep.tif"), AllOf(HasSubstr("band 1"), HasSubstr("UInt16")));
+}
+
+TEST(Orthoimage, DamageIsTold) {
+  const TempFolder folder;
+  write_image(folder / "a.tif", kRgb, [](int, int x, int y) { return (x * y) % 256; });
+  std::filesystem::resize_file(folder / "a.tif", 60000);
+  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "", 0.1);
+  if (!image.ok()) return;  // the directory of the file may be what is missing
+  const Result<Picture> picture = image->read(cv::Rect({0, 0}, image->size()));
+  ASSERT_FALSE(picture.ok());
+  EXPECT_EQ(picture.error().code, ErrorCode::corrupt);
+  EXPECT_THAT(picture.error().line(), HasSubstr("a.tif"));
+}
+
+}  // namespace
+}  // namespace milepost

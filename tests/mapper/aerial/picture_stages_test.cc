@@ -1,0 +1,314 @@
+// The stages that have a picture for input: edges, shadows, clutter, lines, regions, roofs, the
+// sun.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "mapper/aerial/clutter.h"
+#include "mapper/aerial/edge_maps.h"
+#include "mapper/aerial/progressive_hough.h"
+#include "mapper/aerial/regions.h"
+#include "mapper/aerial/roofs.h"
+#include "mapper/aerial/segmentation.h"
+#include "mapper/aerial/shadows.h"
+#include "mapper/aerial/sun_evidence.h"
+#include "tests/mapper/aerial/drawn_yard.h"
+
+namespace milepost {
+namespace {
+
+using testing::drawn;
+using testing::House;
+using testing::is_found;
+using testing::walls_of;
+using testing::Yard;
+
+constexpr double kPixelM = 0.1;
+constexpr double kShadowThreshold = 85;  // the drawn ground has 154, in shadow 46; roofs have 111
+
+const House kHouse{{20, 15}, 12, 8, 20};
+
+Yard one_house() { return {{40, 30}, {kHouse}, {300, 45}, 3, {}}; }
+
+cv::Mat grey_of(const Picture& picture) {
+  cv::Mat grey;
+  cv::cvtColor(picture.bgr, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+// The share of a wall's points that a mask has, `beside_m` to its left, outside of the house.
+double share_beside(const cv::Mat& mask, const PixelGrid& grid, const WallLine& wall,
+                    double beside_m) {
+  int hits = 0;
+  int points = 0;
+  for (double along_m = 1; along_m < wall.length_m() - 1; along_m += kPixelM, ++points) {
+    const Eigen::Vector2d at = grid.pixel_from_ground(wall.begin_m + along_m * direction_of(wall) -
+                                                      beside_m * right_of(direction_of(wall)));
+    hits += mask.at<std::uint8_t>(static_cast<int>(std::lround(at.y())),
+                                  static_cast<int>(std::lround(at.x()))) != 0;
+  }
+  return static_cast<double>(hits) / points;
+}
+
+// Whether the wall's shadow falls on the ground before it.
+bool casts_shadow(const WallLine& wall, const Sun& sun) {
+  return -right_of(direction_of(wall)).dot(shadow_direction(sun)) > 0.3;
+}
+
+WallLines lines_of(const Picture& picture, const std::vector<cv::Mat>& maps,
+                   const HoughSettings& settings = {}) {
+  WallLines lines;
+  const Gradient gradient = gradient_of(picture, {});
+  for (const PixelLine& found : progressive_hough(maps, gradient, kPixelM, settings)) {
+    lines.push_back({picture.grid.ground_from_pixel(found.begin_px),
+                     picture.grid.ground_from_pixel(found.end_px)});
+  }
+  return lines;
+}
+
+TEST(EdgeMaps, LooserMapsHoldStricterOnes) {
+  Yard yard = one_house();
+  yard.trees = {{33, 24}};
+  const Picture picture = drawn(yard);
+  const std::vector<cv::Mat> maps = edge_maps(picture, gradient_of(picture, {}), {});
+  ASSERT_EQ(maps.size(), 3U);
+  EXPECT_GT(cv::countNonZero(maps[0]), 0);
+  for (std::size_t i = 1; i < maps.size(); ++i) {
+    EXPECT_EQ(cv::countNonZero(maps[i - 1] & ~maps[i]), 0);
+  }
+}
+
+TEST(EdgeMaps, WhereDataEndsIsNoEdge) {
+  Picture picture = drawn({{40, 30}, {}, {}, 0, {}});
+  picture.covered.colRange(0, 150).setTo(0);
+  picture.bgr.colRange(0, 150).setTo(0);
+  const std::vector<cv::Mat> maps = edge_maps(picture, gradient_of(picture, {}), {});
+  EXPECT_EQ(cv::countNonZero(maps.back()), 0);
+}
+
+TEST(Shadows, TheThresholdPartsShadowFromGround) {
+  std::array<double, 256> histogram{};
+  histogram[40] = 1000;
+  histogram[120] = 5000;
+  histogram[170] = 4000;
+  const double threshold = shadow_threshold(histogram, {});
+  EXPECT_GT(threshold, 40);
+  EXPECT_LT(threshold, 100);
+  EXPECT_EQ(shadow_threshold(std::array<double, 256>{}, {}), 0);
+}
+
+TEST(Shadows, TheFarBorderIsTakenAndTheWallIsKept) {
+  for (const double azimuth_deg : {20.0, 120.0, 300.0}) {
+    Yard yard = one_house();
+    yard.sun.azimuth_deg = azimuth_deg;
+    const Picture picture = drawn(yard);
+    const cv::Mat grey = grey_of(picture);
+    const cv::Mat shadows = shadow_mask(grey, kShadowThreshold, kPixelM, {});
+    ShadowSettings settings;
+    settings.max_angle_deg = 75;
+    const cv::Mat borders = far_borders(grey, shadows, yard.sun, kPixelM, settings);
+    for (const WallLine& wall : walls_of(kHouse)) {
+      if (!casts_shadow(wall, yard.sun)) continue;
+      const double depth_m = -3 * right_of(direction_of(wall)).dot(shadow_direction(yard.sun));
+      EXPECT_GT(share_beside(shadows, picture.grid, wall, depth_m / 2), 0.6) << azimuth_deg;
+      EXPECT_LT(share_beside(borders, picture.grid, wall, 0), 0.05) << azimuth_deg;
+    }
+    EXPECT_GT(cv::countNonZero(borders), 300) << azimuth_deg;
+  }
+}
+
+TEST(Shadows, NarrowDarkLinesAreNone) {
+  cv::Mat grey(200, 200, CV_8UC1, cv::Scalar::all(150));
+  cv::line(grey, {0, 100}, {199, 100}, cv::Scalar::all(30), 3);
+  EXPECT_EQ(cv::countNonZero(shadow_mask(grey, kShadowThreshold, kPixelM, {})), 0);
+}
+
+TEST(Clutter, RoughAndGreenAreMasked) {
+  Yard yard = one_house();
+  yard.trees = {{33, 24}};
+  const Picture picture = drawn(yard);
+  const Eigen::Vector2d tree = picture.grid.pixel_from_ground({33, 24});
+  const cv::Rect on_tree(static_cast<int>(tree.x()) - 8, static_cast<int>(tree.y()) - 8, 16, 16);
+  const cv::Mat rough = rough_mask(grey_of(picture), kPixelM, {});
+  const cv::Mat green = green_mask(picture, {});
+  EXPECT_GT(cv::countNonZero(rough(on_tree)), 200);
+  EXPECT_GT(cv::countNonZero(green(on_tree)), 200);
+  for (const WallLine& wall : walls_of(kHouse)) {
+    EXPECT_EQ(share_beside(rough, picture.grid, wall, 0), 0);
+    EXPECT_EQ(share_beside(green, picture.grid, wall, 0), 0);
+  }
+}
+
+TEST(Clutter, GreyPicturesHaveNoGreen) {
+  Picture picture = drawn(one_house());
+  cv::cvtColor(grey_of(picture), picture.bgr, cv::COLOR_GRAY2BGR);
+  EXPECT_EQ(cv::countNonZero(green_mask(picture, {})), 0);
+}
+
+TEST(ProgressiveHough, FindsEveryWallTheLongestFirst) {
+  const Picture picture = drawn({{40, 30}, {kHouse}, {}, 0, {}});
+  const WallLines lines = lines_of(picture, edge_maps(picture, gradient_of(picture, {}), {}));
+  ASSERT_EQ(lines.size(), 4U);
+  for (const WallLine& wall : walls_of(kHouse)) EXPECT_TRUE(is_found(wall, lines, 0.15));
+  EXPECT_GT(lines[0].length_m(), 11);
+  EXPECT_GT(lines[1].length_m(), 11);
+  EXPECT_LT(lines[2].length_m(), 9);
+}
+
+TEST(ProgressiveHough, ALineOfAStrictMapIsNotFoundAgainInALooseOne) {
+  const Picture picture = drawn({{40, 30}, {kHouse}, {}, 0, {}});
+  const cv::Mat map = edge_maps(picture, gradient_of(picture, {}), {}).front();
+  EXPECT_EQ(lines_of(picture, {map}).size(), lines_of(picture, {map, map, map}).size());
+}
+
+TEST(ProgressiveHough, BridgesAShortGapAndNoLongOne) {
+  const Picture picture = drawn({{40, 30}, {House{{20, 15}, 30, 8, 0}}, {}, 0, {}});
+  cv::Mat map = edge_maps(picture, gradient_of(picture, {}), {}).front();
+  const auto count_long = [&](int gap_px) {
+    cv::Mat cut = map.clone();
+    cut.colRange(200, 200 + gap_px).setTo(0);
+    const WallLines lines = lines_of(picture, {cut});
+    return std::count_if(lines.begin(), lines.end(),
+                         [](const WallLine& line) { return line.length_m() > 25; });
+  };
+  EXPECT_EQ(count_long(4), 2);
+  EXPECT_EQ(count_long(12), 0);
+}
+
+TEST(ProgressiveHough, DenseEdgesAskForLongerLines) {
+  Picture picture = drawn({{40, 30}, {}, {}, 0, {}});
+  cv::RNG random(3);
+  random.fill(picture.bgr, cv::RNG::UNIFORM, 0, 255);
+  const std::vector<cv::Mat> maps = edge_maps(picture, gradient_of(picture, {}), {});
+  HoughSettings indifferent;
+  indifferent.dense_share = 1;
+  EXPECT_LT(4 * lines_of(picture, maps).size(), lines_of(picture, maps, indifferent).size());
+}
+
+TEST(ProgressiveHough, TheSeedDecides) {
+  Yard yard = one_house();
+  yard.trees = {{33, 24}, {7, 7}};
+  const Picture picture = drawn(yard);
+  const std::vector<cv::Mat> maps = edge_maps(picture, gradient_of(picture, {}), {});
+  const WallLines once = lines_of(picture, maps);
+  const WallLines again = lines_of(picture, maps);
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(once[i].begin_m, again[i].begin_m);
+    EXPECT_EQ(once[i].end_m, again[i].end_m);
+  }
+}
+
+TEST(PlainHough, FindsLinesOfOneMap) {
+  const Picture picture = drawn({{40, 30}, {House{{20, 15}, 12, 8, 0}}, {}, 0, {}});
+  EXPECT_GE(
+      plain_hough(edge_maps(picture, gradient_of(picture, {}), {}).front(), kPixelM, {}).size(),
+      2U);
+}
+
+TEST(Segmentation, ColoursAndKindsPartRegions) {
+  cv::Mat lab(100, 100, CV_32FC3, cv::Scalar(50, 0, 0));
+  cv::Mat kinds = cv::Mat::zeros(lab.size(), CV_8UC1);
+  lab(cv::Rect(20, 20, 40, 40)).setTo(cv::Scalar(60, 40, 30));
+  kinds.colRange(80, 100).setTo(1);
+  lab(cv::Rect(70, 70, 4, 4)).setTo(cv::Scalar(90, 0, 0));  // too small to stay
+  const Segmentation found = segmented(lab, kinds, 0.2, {});
+  EXPECT_EQ(found.count, 3);
+  const auto label = [&](int x, int y) { return found.labels.at<int>(y, x); };
+  EXPECT_NE(label(30, 30), label(10, 10));
+  EXPECT_NE(label(90, 50), label(10, 10));
+  EXPECT_EQ(label(71, 71), label(10, 10));
+}
+
+TEST(Regions, ARoofIsMeasured) {
+  const House house{{20, 15}, 12, 8, 0};
+  const Picture picture = drawn({{40, 30}, {house}, {300, 45}, 3, {}});
+  const RegionMap map = region_map(picture, kShadowThreshold, {}, {});
+  const auto roof =
+      std::min_element(map.regions.begin(), map.regions.end(), [](const auto& a, const auto& b) {
+        return std::abs(a.area_m2 - 96) < std::abs(b.area_m2 - 96);
+      });
+  ASSERT_NE(roof, map.regions.end());
+  EXPECT_NEAR(roof->area_m2, 96, 6);
+  EXPECT_NEAR(roof->length_m, 12, 1);
+  EXPECT_NEAR(roof->width_m, 8, 1);
+  EXPECT_NEAR(roof->hull_ratio, 1, 0.1);
+  const Eigen::Vector2d middle = map.grid.pixel_from_ground(house.middle_m);
+  const auto outward = std::count_if(
+      roof->outline.begin(), roof->outline.end(),
+      [&](const OutlinePoint& point) { return point.outward.dot(point.at_px - middle) > 0; });
+  EXPECT_GT(static_cast<double>(outward), 0.95 * static_cast<double>(roof->outline.size()));
+}
+
+TEST(Roofs, AHouseIsOneAndARoadIsNone) {
+  Yard yard{{80, 60},
+            {{{20, 15}, 12, 8, 20}, {{55, 40}, 14, 9, 70}, {{60, 15}, 10, 8, 0}},
+            {300, 45},
+            3,
+            {}};
+  Picture picture = drawn(yard);
+  cv::line(picture.bgr, {0, 350}, {799, 420}, cv::Scalar(125, 125, 125), 50);
+  RegionSettings whole_roofs;
+  whole_roofs.segmentation.min_region_m2 = 6;
+  const RegionMap map = region_map(picture, kShadowThreshold, {}, whole_roofs);
+  WallLines walls;
+  for (const House& house : yard.houses) {
+    const WallLines of_house = walls_of(house);
+    walls.insert(walls.end(), of_house.begin(), of_house.end());
+  }
+  const RoofSettings settings;
+  const cv::Mat roofs = roof_picture(
+      map, roof_probabilities(map, roof_features(map, walls, yard.sun), settings), settings);
+  const auto at = [&](double x_m, double y_m) {
+    const Eigen::Vector2d pixel = map.grid.pixel_from_ground({x_m, y_m});
+    return roofs.at<float>(static_cast<int>(pixel.y()), static_cast<int>(pixel.x()));
+  };
+  for (const House& house : yard.houses) {
+    EXPECT_GT(at(house.middle_m.x(), house.middle_m.y()), 0.8);
+  }
+  EXPECT_LT(at(5, 5), 0.2);
+  EXPECT_LT(at(10, 24), 0.2);
+
+  WallLines turned = walls;
+  for (WallLine& wall : turned) std::swap(wall.begin_m, wall.end_m);
+  turned.push_back({{17, 14}, {23, 16.2}});  // on a roof
+  turned.push_back({{2, 5}, {8, 5}});        // on the ground
+  const WallLines kept = at_roof_edges(turned, roofs, map.grid, {});
+  EXPECT_GE(kept.size(), walls.size() - 1);
+  for (const WallLine& line : kept) {
+    EXPECT_TRUE(std::any_of(walls.begin(), walls.end(), [&](const WallLine& wall) {
+      return wall.begin_m == line.begin_m && wall.end_m == line.end_m;
+    }));
+  }
+}
+
+TEST(SunEvidence, ShadowsTellTheAzimuth) {
+  for (const double azimuth_deg : {10.0, 100.0, 190.0, 315.0}) {
+    Yard yard{{80, 60}, {}, {azimuth_deg, 45}, 3, {}};
+    for (const double x_m : {15.0, 40.0, 65.0}) {
+      yard.houses.push_back({{x_m, 15}, 12, 8, x_m});
+      yard.houses.push_back({{x_m, 45}, 10, 8, -x_m});
+    }
+    SunEvidence evidence;
+    evidence.add(region_map(drawn(yard), kShadowThreshold, {}, {}));
+    ASSERT_TRUE(evidence.azimuth_deg().has_value());
+    EXPECT_LT(std::abs(std::remainder(*evidence.azimuth_deg() - azimuth_deg, 360)), 15);
+  }
+}
+
+TEST(SunEvidence, NothingIsKnownWithoutShadows) {
+  SunEvidence evidence;
+  evidence.add(region_map(drawn({{40, 30}, {}, {}, 0, {}}), kShadowThreshold, {}, {}));
+  EXPECT_FALSE(evidence.azimuth_deg().has_value());
+}
+
+TEST(Sun, ShadowsFallAwayFromIt) {
+  EXPECT_LT((shadow_direction({90, 45}) - Eigen::Vector2d(-1, 0)).norm(), 1e-9);
+  EXPECT_LT((shadow_direction({180, 45}) - Eigen::Vector2d(0, 1)).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace milepost
