@@ -9,6 +9,8 @@ namespace milepost {
 namespace {
 
 constexpr double kHeadingSigmaRad = 3 * kRadPerDeg;
+constexpr double kAgreesRad = 1 * kRadPerDeg;
+constexpr int kMaxTurns = 4;
 
 template <class Value>
 const Value& any_of(std::span<const Value> values, Random& random) {
@@ -22,13 +24,18 @@ PlanPose oriented_pose(std::span<const ViewSection> sections, const WallIndex& w
                        const PlanBox& area, double reach_m, Random& random) {
   PlanPose pose = uniform_pose(area, random);
   const ViewSection& section = any_of(sections, random);
-  const double azimuth_rad = pose.heading_rad + section.bearings.middle_rad();
-  const auto hit = walls.first_hit(pose.enu_m, direction_of(azimuth_rad), reach_m);
-  if (!hit) return pose;
   const double observed_rad = any_of(std::span<const double>(section.orientations_rad), random);
-  const double expected_rad = walls.walls()[hit->wall].azimuth_rad() - pose.heading_rad;
-  std::normal_distribution<double> noise(0, kHeadingSigmaRad);
-  pose.heading_rad += std::remainder(expected_rad - observed_rad, std::numbers::pi) + noise(random);
+  // Having turned, it may look at another wall.
+  for (int turns = 0; turns < kMaxTurns; ++turns) {
+    const double azimuth_rad = pose.heading_rad + section.bearings.middle_rad();
+    const auto hit = walls.first_hit(pose.enu_m, direction_of(azimuth_rad), reach_m);
+    if (!hit) return pose;
+    const double expected_rad = walls.walls()[hit->wall].azimuth_rad() - pose.heading_rad;
+    const double turn_rad = std::remainder(expected_rad - observed_rad, std::numbers::pi);
+    if (std::abs(turn_rad) < kAgreesRad) break;
+    pose.heading_rad += turn_rad;
+  }
+  pose.heading_rad += std::normal_distribution<double>(0, kHeadingSigmaRad)(random);
   return pose;
 }
 

@@ -1,0 +1,63 @@
+#include "client/find/mean_shift.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace milepost {
+namespace {
+
+// `share` of a cloud of 1000 about `pose`.
+void add_cluster(ParticleCloud& cloud, const PlanPose& pose, double share, Random& random) {
+  const auto count = static_cast<std::size_t>(1000 * share);
+  for (Particle particle : cloud_about({pose, 1, 0.05}, count, random)) {
+    particle.weight = 0.001;
+    cloud.push_back(particle);
+  }
+}
+
+TEST(MeanShift, FindsTheHeavierOfTwoPlaces) {
+  Random random(1);
+  ParticleCloud cloud;
+  add_cluster(cloud, {{100, 20}, 1}, 0.4, random);
+  add_cluster(cloud, {{-30, 50}, 4}, 0.6, random);
+  const BeliefMode mode = densest_mode(cloud, {5, 0.35});
+  EXPECT_NEAR(mode.pose.enu_m.x(), -30, 0.2);
+  EXPECT_NEAR(mode.pose.enu_m.y(), 50, 0.2);
+  EXPECT_NEAR(std::remainder(mode.pose.heading_rad - 4, 2 * std::numbers::pi), 0, 0.02);
+  EXPECT_NEAR(mode.mass, 0.6, 0.01);
+  EXPECT_NEAR(mode.sigma_m, 1, 0.1);
+  EXPECT_NEAR(mode.heading_sigma_rad, 0.05, 0.01);
+}
+
+TEST(MeanShift, OppositeHeadingsAreTwoPlaces) {
+  Random random(1);
+  ParticleCloud cloud;
+  add_cluster(cloud, {{0, 0}, 0}, 0.45, random);
+  add_cluster(cloud, {{0, 0}, std::numbers::pi}, 0.55, random);
+  const BeliefMode mode = densest_mode(cloud, {5, 0.35});
+  EXPECT_NEAR(mode.mass, 0.55, 0.01);
+  EXPECT_NEAR(std::cos(mode.pose.heading_rad), -1, 0.01);
+}
+
+TEST(MeanShift, HeadingsMeetAtNorth) {
+  Random random(1);
+  ParticleCloud cloud;
+  add_cluster(cloud, {{0, 0}, 2 * std::numbers::pi}, 0.5, random);
+  add_cluster(cloud, {{0, 0}, 0}, 0.5, random);
+  EXPECT_NEAR(densest_mode(cloud, {5, 0.35}).mass, 1, 0.01);
+}
+
+// A cluster on the corner of four bins is found whole.
+TEST(MeanShift, ClimbsToTheMiddle) {
+  Random random(1);
+  ParticleCloud cloud;
+  add_cluster(cloud, {{10, 10}, 0.7}, 1, random);
+  const BeliefMode mode = densest_mode(cloud, {5, 0.35});
+  EXPECT_GT(mode.mass, 0.99);
+  EXPECT_NEAR(mode.pose.enu_m.x(), 10, 0.15);
+}
+
+}  // namespace
+}  // namespace milepost

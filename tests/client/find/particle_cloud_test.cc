@@ -1,0 +1,143 @@
+#include "client/find/particle_cloud.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/client/find/plan_rooms.h"
+
+namespace milepost {
+namespace {
+
+constexpr double kQuarter = std::numbers::pi / 2;
+
+// Eq. 1 by hand: heading clockwise from north where the paper's turns counterclockwise from east.
+TEST(Moved, GoesAlongTheChordHalfWayThroughTheTurn) {
+  const PlanPose pose = moved({{10, 20}, 0}, 2, kQuarter);
+  EXPECT_NEAR(pose.enu_m.x(), 10 + 2 * std::sin(kQuarter / 2), 1e-12);
+  EXPECT_NEAR(pose.enu_m.y(), 20 + 2 * std::cos(kQuarter / 2), 1e-12);
+  EXPECT_DOUBLE_EQ(pose.heading_rad, kQuarter);
+}
+
+TEST(ParticleCloud, AUniformOneFillsAreaAndHeadings) {
+  Random random(1);
+  const PlanBox area{{-10, 5}, {30, 15}};
+  const ParticleCloud cloud = uniform_cloud(4000, area, random);
+  std::map<std::pair<bool, bool>, int> quarters;
+  double weights = 0;
+  int looks_east = 0;
+  for (const Particle& particle : cloud) {
+    ASSERT_TRUE(area.contains(particle.pose.enu_m));
+    ++quarters[{particle.pose.enu_m.x() < 10, particle.pose.enu_m.y() < 10}];
+    looks_east += std::sin(particle.pose.heading_rad) > 0 ? 1 : 0;
+    weights += particle.weight;
+  }
+  for (const auto& [quarter, count] : quarters) EXPECT_NEAR(count, 1000, 120);
+  EXPECT_NEAR(looks_east, 2000, 140);
+  EXPECT_NEAR(weights, 1, 1e-9);
+}
+
+TEST(ParticleCloud, OneAboutAStartHasItsSpread) {
+  Random random(1);
+  const ParticleCloud cloud = cloud_about({{{100, 200}, 1}, 4, 0.2}, 4000, random);
+  double east = 0;
+  double east2 = 0;
+  double heading2 = 0;
+  for (const Particle& particle : cloud) {
+    east += particle.pose.enu_m.x() - 100;
+    east2 += std::pow(particle.pose.enu_m.x() - 100, 2);
+    heading2 += std::pow(particle.pose.heading_rad - 1, 2);
+  }
+  EXPECT_NEAR(east / 4000, 0, 0.3);
+  EXPECT_NEAR(std::sqrt(east2 / 4000), 4, 0.2);
+  EXPECT_NEAR(std::sqrt(heading2 / 4000), 0.2, 0.01);
+}
+
+TEST(ParticleCloud, WithoutNoiseAllMoveAlike) {
+  Random random(1);
+  const WallIndex walls({{{-50, 90}, {50, 90}, 0.1}});
+  const PlanBox area{{-100, -100}, {100, 100}};
+  ParticleCloud cloud(3, {{{0, 0}, 0}, 1.0 / 3});
+  EXPECT_EQ(move_cloud(cloud, {1, 10, 0.2}, {}, walls, area, random), 0U);
+  for (const Particle& particle : cloud) {
+    EXPECT_NEAR(particle.pose.enu_m.x(), 10 * std::sin(0.1), 1e-12);
+    EXPECT_NEAR(particle.pose.heading_rad, 0.2, 1e-12);
+  }
+}
+
+TEST(ParticleCloud, NoiseGrowsWithTimeAndWay) {
+  Random random(1);
+  const WallIndex walls({{{-50, 900}, {50, 900}, 0.1}});
+  const PlanBox area{{-1000, -1000}, {1000, 1000}};
+  ParticleCloud cloud(4000, {{{0, 0}, 0}, 1.0 / 4000});
+  move_cloud(cloud, {4, 100, 0}, {0.1, 0.03, 0.01}, walls, area, random);
+  double along2 = 0;
+  double turn2 = 0;
+  for (const Particle& particle : cloud) {
+    along2 += std::pow(particle.pose.enu_m.norm() - 100, 2);
+    turn2 += std::pow(particle.pose.heading_rad, 2);
+  }
+  EXPECT_NEAR(std::sqrt(along2 / 4000), std::hypot(0.2, 3), 0.15);
+  EXPECT_NEAR(std::sqrt(turn2 / 4000), 0.02, 0.001);
+}
+
+// Section IV, last sentence on the filter: those that move through a building are drawn anew.
+TEST(ParticleCloud, ThoseThatCrossAWallOrLeaveAreDrawnAnew) {
+  Random random(1);
+  const WallIndex walls({{{-1, 5}, {1, 5}, 0.1}});
+  const PlanBox area{{-50, -50}, {50, 50}};
+  ParticleCloud cloud(100, {{{0, 0}, 0}, 0.01});
+  EXPECT_EQ(move_cloud(cloud, {1, 6, 0}, {}, walls, area, random), 100U);
+  int beyond = 0;
+  for (const Particle& particle : cloud) {
+    EXPECT_TRUE(area.contains(particle.pose.enu_m));
+    beyond += particle.pose.enu_m.norm() > 10 ? 1 : 0;
+  }
+  EXPECT_GT(beyond, 80);
+  ParticleCloud leaving(10, {{{0, 48}, 0}, 0.1});
+  EXPECT_EQ(move_cloud(leaving, {1, 6, 0}, {}, walls, area, random), 10U);
+}
+
+TEST(ParticleCloud, WeighingMultipliesAndNormalizes) {
+  ParticleCloud cloud = {{{{0, 0}, 0}, 0.5}, {{{1, 0}, 0}, 0.25}, {{{2, 0}, 0}, 0.25}};
+  weigh_cloud(cloud, {-1000, -1000 + std::log(2), -1000});
+  EXPECT_NEAR(cloud[0].weight, 0.4, 1e-12);
+  EXPECT_NEAR(cloud[1].weight, 0.4, 1e-12);
+  EXPECT_NEAR(cloud[2].weight, 0.2, 1e-12);
+  EXPECT_NEAR(effective_count(cloud), 1 / (0.16 + 0.16 + 0.04), 1e-9);
+}
+
+// By low variance: each particle comes as often as its weight says, one more or less.
+TEST(ParticleCloud, ResamplingKeepsSharesToOneParticle) {
+  Random random(7);
+  ParticleCloud cloud;
+  const double weights[] = {0.501, 0.003, 0.246, 0.25, 0};
+  for (const double weight : weights) {
+    cloud.push_back({{{static_cast<double>(cloud.size()), 0}, 0}, weight});
+  }
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<int> counts(cloud.size(), 0);
+    const ParticleCloud chosen = resampled(cloud, 200, random);
+    ASSERT_EQ(chosen.size(), 200U);
+    for (const Particle& particle : chosen) {
+      ++counts[static_cast<std::size_t>(particle.pose.enu_m.x())];
+      EXPECT_DOUBLE_EQ(particle.weight, 1.0 / 200);
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) EXPECT_NEAR(counts[i], 200 * weights[i], 1);
+  }
+}
+
+TEST(ParticleCloud, AWideBeliefTakesMoreParticles) {
+  Random random(1);
+  const auto enough = [&](double sigma_m) {
+    return enough_particles(cloud_about({{{0, 0}, 0}, sigma_m, 0.02}, 3000, random), 1, 0.1);
+  };
+  EXPECT_EQ(enough(0.01), 200U);
+  EXPECT_GT(enough(1.5), 300U);
+  EXPECT_GT(enough(6), 2 * enough(1.5));
+}
+
+}  // namespace
+}  // namespace milepost

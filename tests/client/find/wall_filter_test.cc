@@ -1,0 +1,184 @@
+// The filter in a plan of streets: what a vehicle sees there is cast from the walls, with noise.
+#include "client/find/wall_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "schema/geo/geodesy.h"
+#include "tests/client/find/plan_rooms.h"
+
+namespace milepost {
+namespace {
+
+constexpr double kStepM = 1.5;
+constexpr double kStepS = 0.2;
+
+struct Step {
+  PlanPose truth;
+  WheelMotion motion;
+  WallObservation observation;
+};
+
+// Beams each 3 degrees that end at a wall within 50 m, three in four of them rightly, and the
+// orientations of walls.
+WallObservation seen_at(const PlanPose& pose, const WallIndex& walls, Random& random) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> chance(0, 1);
+  WallObservation observation;
+  for (double bearing = -0.7; bearing < 0.7; bearing += 0.05) {
+    const auto hit = walls.first_hit(pose.enu_m, direction_of(pose.heading_rad + bearing), 50);
+    if (!hit) continue;
+    const double part = chance(random) < 0.75 ? 1 + 0.02 * normal(random) : chance(random);
+    observation.beams.push_back({bearing, hit->range_m * part, 0.02 * hit->range_m});
+    const double orientation_rad = walls.walls()[hit->wall].azimuth_rad() - pose.heading_rad;
+    observation.sections.push_back(
+        {{bearing - 0.025, bearing + 0.025}, {orientation_rad + 0.02 * normal(random)}});
+  }
+  return observation;
+}
+
+class WallFilterTest : public ::testing::Test {
+ protected:
+  // On along a heading for so many steps, turning evenly.
+  void drive(int steps, double turn_rad = 0) {
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < steps; ++i) {
+      const double turn = turn_rad / steps;
+      pose_ = moved(pose_, kStepM, turn);
+      steps_.push_back(
+          {pose_,
+           {kStepS, kStepM * (1.01 + 0.02 * normal(random_)), turn + 0.003 * normal(random_)},
+           seen_at(pose_, walls_, random_)});
+    }
+  }
+
+  // Up the street and round the corner to the east.
+  void drive_round_the_corner() {
+    drive(62);
+    drive(10, std::numbers::pi / 2);
+    drive(40);
+  }
+
+  struct Outcome {
+    int found = 0;  // frames
+    int wrong = 0;  // of these, more than 5 m away
+    double last_error_m = 0;
+    FindStatus last = FindStatus::initializing;
+    BeliefMode mode;
+  };
+
+  Outcome run(const FilterSettings& settings, const WallIndex& walls) const {
+    PlanBox area = walls.bounds();
+    area.min_m.array() -= 10;
+    area.max_m.array() += 10;
+    WallFilter filter(walls, area, settings);
+    Outcome outcome;
+    for (const Step& step : steps_) {
+      const Found found = filter.update(step.observation, step.motion);
+      outcome.last = found.status;
+      outcome.mode = found.mode;
+      outcome.last_error_m = (found.mode.pose.enu_m - step.truth.enu_m).norm();
+      if (found.status != FindStatus::tracking) continue;
+      ++outcome.found;
+      outcome.wrong += outcome.last_error_m > 5 ? 1 : 0;
+    }
+    return outcome;
+  }
+
+  static FilterSettings seeded(std::uint64_t seed) {
+    FilterSettings settings;
+    settings.seed = seed;
+    return settings;
+  }
+
+  WallIndex walls_{testing::bent_street()};
+  Random random_{11};
+  PlanPose pose_{{1, 3}, 0};
+  std::vector<Step> steps_;
+};
+
+TEST_F(WallFilterTest, FindsTheVehicleFromNoIdea) {
+  drive_round_the_corner();
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Outcome outcome = run(seeded(seed), walls_);
+    EXPECT_EQ(outcome.last, FindStatus::tracking) << "seed " << seed;
+    EXPECT_LT(outcome.last_error_m, 1.5) << "seed " << seed;
+    EXPECT_GT(outcome.found, 20) << "seed " << seed;
+    EXPECT_LE(outcome.wrong, 5) << "seed " << seed;
+  }
+}
+
+TEST_F(WallFilterTest, KeepsAStartThatIsKnown) {
+  drive_round_the_corner();
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{3, 5}, 0.1}, 4, 0.2};
+  const Outcome outcome = run(settings, walls_);
+  EXPECT_EQ(outcome.wrong, 0);
+  EXPECT_GT(outcome.found, 20);
+}
+
+TEST_F(WallFilterTest, ThePapersMethodKeepsAStartThatIsKnown) {
+  drive_round_the_corner();
+  FilterSettings settings = seeded(1);
+  settings.method = FindMethod::orientations;
+  settings.start = StartBelief{{{1, 3}, 0}, 2, 0.1};
+  const Outcome outcome = run(settings, walls_);
+  EXPECT_LT(outcome.last_error_m, 15);
+}
+
+// The drive of another place.
+TEST_F(WallFilterTest, AmongOtherWallsItFindsNothing) {
+  drive_round_the_corner();
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> place(-60, 60);
+  std::vector<PlanWall> others;
+  for (int i = 0; i < 25; ++i) {
+    const Eigen::Vector2d corner(place(random), place(random));
+    testing::add_house(others, corner, corner + Eigen::Vector2d(7 + i % 5, 6 + i % 3));
+  }
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    EXPECT_LE(run(seeded(seed), WallIndex(others)).found, 0) << "seed " << seed;
+  }
+}
+
+TEST_F(WallFilterTest, AKidnappedVehicleIsFoundAgain) {
+  drive_round_the_corner();
+  pose_ = {{1, 3}, 0};
+  drive_round_the_corner();
+  const Outcome outcome = run(seeded(2), walls_);
+  EXPECT_EQ(outcome.last, FindStatus::tracking);
+  EXPECT_LT(outcome.last_error_m, 1.5);
+}
+
+TEST_F(WallFilterTest, TheSameSeedGivesTheSameAnswer) {
+  drive(30);
+  const Outcome first = run(seeded(3), walls_);
+  const Outcome second = run(seeded(3), walls_);
+  EXPECT_EQ(first.mode.pose.enu_m, second.mode.pose.enu_m);
+  EXPECT_EQ(first.mode.mass, second.mode.mass);
+  EXPECT_NE(first.mode.pose.enu_m, run(seeded(4), walls_).mode.pose.enu_m);
+}
+
+// At a red light the belief neither sharpens nor spreads.
+TEST_F(WallFilterTest, StandingStillChangesNoBelief) {
+  drive_round_the_corner();
+  for (int i = 0; i < 100; ++i) {
+    steps_.push_back({pose_, {kStepS, 0, 0}, {{}, {}}});
+  }
+  const Outcome outcome = run(seeded(1), walls_);
+  EXPECT_EQ(outcome.last, FindStatus::predicted);
+  EXPECT_LT(outcome.last_error_m, 1.5);
+}
+
+TEST_F(WallFilterTest, OneParticleIsAllowed) {
+  drive(20);
+  FilterSettings settings = seeded(1);
+  settings.particles = 1;
+  EXPECT_EQ(run(settings, walls_).mode.sigma_m, 0);
+}
+
+}  // namespace
+}  // namespace milepost
