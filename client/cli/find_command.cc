@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <iostream>
 #include <map>
 
 #include "client/cli/cells.h"
 #include "client/cli/commands.h"
-#include "client/cli/find_drive.h"
+#include "client/cli/find_errors.h"
+#include "client/cli/find_report.h"
 #include "client/cli/output.h"
 #include "client/cli/source_options.h"
 #include "client/fetch/walls.h"
@@ -25,6 +27,8 @@ struct Options {
   std::string drive;
   std::string out;
   std::string localized_out;
+  std::string report;
+  std::string backdrop;
   std::string method = "ranges";
   int particles = 2000;
   int seed = 1;
@@ -61,20 +65,33 @@ Result<MapDescription> map_to_search(MapSource& source, const Options& options) 
                "choose one of these by --map-name"};
 }
 
-// Errors: those of map_to_search and walls_in; not_found where the area has none.
-Result<std::vector<Wall>> walls_to_search(MapSource& source, const Options& options) {
-  const Result<MapDescription> map = map_to_search(source, options);
-  if (!map) return map.error();
+// Errors: those of walls_in; not_found where the area has none.
+Result<std::vector<Wall>> walls_to_search(MapSource& source, const MapDescription& map,
+                                          const Options& options) {
   const auto& area = options.area_deg;
-  const Bounds box = area.empty() ? map->bounds : Bounds{area[0], area[1], area[2], area[3]};
-  Result<std::vector<Wall>> walls = walls_in(source, map->version, kWallsLayer, box);
+  const Bounds box = area.empty() ? map.bounds : Bounds{area[0], area[1], area[2], area[3]};
+  Result<std::vector<Wall>> walls = walls_in(source, map.version, kWallsLayer, box);
   if (!walls) return walls.error();
   std::erase_if(*walls, [&](const Wall& wall) { return !bounds_of(wall).meets(box); });
   if (walls->empty()) {
-    return Error{ErrorCode::not_found, "map '" + map->version.map + "'",
+    return Error{ErrorCode::not_found, "map '" + map.version.map + "'",
                  "there are no walls in the area", "choose another area by --area"};
   }
   return walls;
+}
+
+// Errors: those of read_backdrop; invalid_input for a picture of another place.
+Result<std::optional<Backdrop>> backdrop_of(const Options& options,
+                                            const std::vector<Wall>& walls) {
+  if (options.backdrop.empty()) return std::optional<Backdrop>();
+  Result<Backdrop> backdrop = read_backdrop(options.backdrop);
+  if (!backdrop) return backdrop.error();
+  const Bounds box = backdrop->bounds();
+  const bool shows_walls = std::any_of(
+      walls.begin(), walls.end(), [&](const Wall& wall) { return bounds_of(wall).meets(box); });
+  if (shows_walls) return std::optional(std::move(*backdrop));
+  return Error{ErrorCode::invalid_input, options.backdrop, "the picture shows none of the walls",
+               "check its world file or give a picture of the area"};
 }
 
 FinderSettings finder_settings(const Options& options, bool has_heading) {
@@ -109,9 +126,7 @@ std::string summary_line(const std::vector<FoundFrame>& frames, const std::strin
   std::size_t tracked = 0;
   std::string since = "the vehicle was not found";
   for (const FoundFrame& frame : frames) {
-    if (frame.fix.status != FindStatus::tracking && frame.fix.status != FindStatus::predicted) {
-      continue;
-    }
+    if (!is_tracked(frame.fix.status)) continue;
     if (tracked++ > 0) continue;
     since =
         "found after " + number(frame.fix.timestamp_s - frames.front().fix.timestamp_s, 1) + " s";
@@ -156,6 +171,17 @@ void add_options(CLI::App& app, Options& options) {
                  "Also localize along the mapped roads, starting from what is found, and write\n"
                  "these fixes")
       ->option_text("FILE");
+  CLI::Option* report =
+      app.add_option("--report", options.report,
+                     "Also write a page about the run: the belief at several times, the path, "
+                     "errors\nover time; it alone compares with the recorded positions")
+          ->option_text("FILE.html");
+  app.add_option("--backdrop", options.backdrop,
+                 "Picture of the area for the report's plans: PNG or JPEG with a world file in\n"
+                 "WGS84 degrees beside it, as made of an orthoimage by\n"
+                 "gdalwarp -t_srs EPSG:4326 and gdal_translate -of JPEG -co WORLDFILE=YES")
+      ->needs(report)
+      ->option_text("IMAGE");
 }
 
 }  // namespace
@@ -189,15 +215,21 @@ int run_find(const std::string& program, std::vector<std::string> words) {
   if (!drive) return fail(program, drive.error());
   const Result<std::shared_ptr<MapSource>> source = open_source(options.source);
   if (!source) return fail(program, source.error());
-  const Result<std::vector<Wall>> walls = walls_to_search(**source, options);
+  const Result<MapDescription> map = map_to_search(**source, options);
+  if (!map) return fail(program, map.error());
+  const Result<std::vector<Wall>> walls = walls_to_search(**source, *map, options);
   if (!walls) return fail(program, walls.error());
+  const Result<std::optional<Backdrop>> backdrop = backdrop_of(options, *walls);
+  if (!backdrop) return fail(program, backdrop.error());
+  FindRecorder recorder;
   catch_stop_signals();
   const Result<FoundDrive> found = [&] {
     ProgressLine progress;
     FindRun run;
     run.finder = finder_settings(options, app.count("--start-heading-deg") > 0);
     if (!options.localized_out.empty()) run.localizer_source = *source;
-    run.on_frame = [&](std::size_t frame, const Finder&) {
+    run.on_frame = [&](std::size_t frame, const FindFix& fix, const Finder& finder) {
+      recorder.observe(frame, fix.status, finder);
       progress.show("frame " + std::to_string(frame + 1) + " of " +
                     std::to_string(drive->frames.size()));
       return !stop_requested();
@@ -208,6 +240,18 @@ int run_find(const std::string& program, std::vector<std::string> words) {
   Status written = write_text_file(options.out, found_csv(found->frames));
   if (written.ok() && !options.localized_out.empty()) {
     written = write_text_file(options.localized_out, fixes_csv(found->localized));
+  }
+  if (written.ok() && !options.report.empty()) {
+    FindReportInput input;
+    input.map_name = map->version.map + " (build " + map->version.build + ")";
+    input.map_source = options.source.name();
+    input.settings = options.method + ", " + std::to_string(options.particles) +
+                     " particles, seed " + std::to_string(options.seed);
+    input.drive = &*drive;
+    input.frames = &found->frames;
+    input.recorder = &recorder;
+    input.backdrop = *backdrop;
+    written = write_text_file(options.report, find_report_html(input));
   }
   if (!written.ok()) return fail(program, written.error());
   std::cout << summary_line(found->frames, options.out) << "\n";

@@ -91,7 +91,7 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
       if (!localized) return localized.error();
       found.localized.push_back(std::move(*localized));
     }
-    if (!run.on_frame(i, finder)) {
+    if (!run.on_frame(i, fix, finder)) {
       return Error{ErrorCode::cancelled, drive.folder.string(),
                    "stopped on request, nothing was written", ""};
     }

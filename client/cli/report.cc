@@ -3,30 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include "client/cli/plot/chart.h"
 #include "client/cli/plot/text.h"
 #include "client/cli/report_figures.h"
-#include "client/cli/report_style.h"
+#include "client/cli/report_numbers.h"
 #include "client/cli/report_table.h"
 
 namespace milepost {
 namespace {
-
-using plot::escaped;
-
-std::string drive_name(const ReportInput& input) {
-  return input.drive == nullptr || input.drive->name.empty() ? "unnamed drive" : input.drive->name;
-}
-
-// The policy lets nothing run and nothing be loaded, whatever the names in the report say.
-std::string head(const ReportInput& input) {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-         "'unsafe-inline'\"/>\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-         escaped(drive_name(input)) + " \u2013 milepost evaluation</title>\n<style>" +
-         std::string(report_style()) + "</style>\n</head>\n";
-}
 
 std::string lateral_lead(const Summary& summary) {
   if (!summary.knows_lateral()) return "";
@@ -48,21 +31,6 @@ std::string lead(const ReportSeries& series) {
          "." + lateral_lead(summary);
 }
 
-std::string frames_fact(const Drive& drive) {
-  std::string text = std::to_string(drive.frames.size());
-  if (drive.frames.size() > 1) {
-    const double duration_s = drive.frames.back().timestamp_s - drive.frames.front().timestamp_s;
-    text += " in " + plot::number(duration_s, 1) + " s";
-  }
-  if (drive.camera.width_px > 0) {
-    text += ", " + std::to_string(drive.camera.width_px) + " \u00D7 " +
-            std::to_string(drive.camera.height_px) + " pixels";
-  }
-  return text;
-}
-
-using Facts = std::vector<std::pair<std::string, std::string>>;
-
 Facts facts_of(const ReportInput& input) {
   Facts facts = {{"Map", input.map_name}, {"Tiles from", input.map_source}};
   if (!input.segment.empty()) {
@@ -70,23 +38,14 @@ Facts facts_of(const ReportInput& input) {
                        input.segment + ", " + plot::number(input.segment_length_m, 1) + " m");
   }
   if (input.drive != nullptr) {
-    facts.emplace_back("Captured", input.drive->captured);
-    facts.emplace_back("Frames", frames_fact(*input.drive));
-    facts.emplace_back("Recording", input.drive->source);
-    facts.emplace_back("Licence", input.drive->licence);
+    for (auto& fact : facts_of(*input.drive)) facts.push_back(std::move(fact));
   }
   return facts;
 }
 
-std::string heading(const ReportInput& input, const ReportSeries& series) {
-  std::string html = "<header>\n<p class=\"over\">milepost evaluation</p>\n<h1>" +
-                     escaped(drive_name(input)) + "</h1>\n<p class=\"lead\">" +
-                     escaped(lead(series)) + "</p>\n<dl>\n";
-  for (const auto& [name, value] : facts_of(input)) {
-    html += "<div><dt>" + name + "</dt><dd>" + escaped(value.empty() ? "not stated" : value) +
-            "</dd></div>\n";
-  }
-  return html + "</dl>\n</header>\n";
+PageHead head(const ReportInput& input, const ReportSeries& series) {
+  return {"evaluation", title_of(input.drive == nullptr ? Drive{} : *input.drive), lead(series),
+          facts_of(input)};
 }
 
 std::string summary(const ReportInput& input) {
@@ -115,15 +74,6 @@ std::string pose_summary(const ReportInput& input) {
          "reported lateral standard deviation.</p>\n</section>\n";
 }
 
-std::string html_of(const Figure& figure) {
-  const std::string nothing =
-      "<p class=\"empty\">There is nothing to draw: no frame has the numbers that this figure "
-      "shows.</p>\n";
-  return "<figure>\n<h2>" + escaped(figure.heading) + "</h2>\n" +
-         (figure.drawing.empty() ? nothing : figure.legend + figure.drawing) + "<figcaption>" +
-         escaped(figure.caption) + "</figcaption>\n</figure>\n";
-}
-
 std::string figures(const ReportInput& input, const ReportSeries& series) {
   return html_of(error_figure(series)) +
          (series.knows_lateral() ? html_of(lateral_figure(series)) : "") +
@@ -136,9 +86,10 @@ std::string figures(const ReportInput& input, const ReportSeries& series) {
 
 std::string report_html(const ReportInput& input) {
   const ReportSeries series = report_series(input);
-  std::string html = head(input) + "<body>\n" + plot::Chart::definitions() + heading(input, series);
-  if (!input.methods.empty()) html += summary(input) + pose_summary(input) + figures(input, series);
-  return html + "</body>\n</html>\n";
+  std::string content;
+  if (!input.methods.empty())
+    content = summary(input) + pose_summary(input) + figures(input, series);
+  return page(head(input, series), content);
 }
 
 }  // namespace milepost

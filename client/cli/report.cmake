@@ -13,6 +13,9 @@ milepost_library(report
     cli/plot/text.cc
     cli/report.cc
     cli/report_map.cc
+    cli/report_numbers.cc
+    cli/report_page.cc
+    cli/report_plan.cc
     cli/report_route.cc
     cli/report_series.cc
     cli/report_spread.cc

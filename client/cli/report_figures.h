@@ -1,18 +1,10 @@
 // The figures of the report. Each can tell what it shows even where there is nothing to draw.
 #pragma once
 
-#include <string>
-
+#include "client/cli/report_page.h"
 #include "client/cli/report_series.h"
 
 namespace milepost {
-
-struct Figure {
-  std::string heading;  // plain text
-  std::string legend;   // HTML
-  std::string drawing;  // HTML; empty when there is nothing to draw
-  std::string caption;  // plain text: how to read it, and the numbers behind
-};
 
 // Along the route (report_route.cc). REQUIRES: there is a method.
 Figure error_figure(const ReportSeries& series);

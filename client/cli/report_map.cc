@@ -8,11 +8,11 @@
 #include "client/cli/plot/chart.h"
 #include "client/cli/plot/text.h"
 #include "client/cli/report_figures.h"
+#include "client/cli/report_plan.h"
 
 namespace milepost {
 namespace {
 
-using plot::Axis;
 using plot::Chart;
 using plot::Point;
 
@@ -61,12 +61,6 @@ std::optional<GeoPoint> origin_of(const ReportInput& input) {
   return std::nullopt;
 }
 
-Point on_plan(const LocalFrame& frame, const GeoPoint& point) {
-  if (!is_valid(point)) return {kNaN, kNaN};
-  const EnuPoint enu = frame.enu_from_geo(point);
-  return {enu.east_m, enu.north_m};
-}
-
 PlanView plan_view(const ReportInput& input, const ReportSeries& series, const GeoPoint& origin) {
   const LocalFrame frame(origin);
   PlanView plan;
@@ -83,41 +77,13 @@ PlanView plan_view(const ReportInput& input, const ReportSeries& series, const G
   return plan;
 }
 
-struct Extent {
-  double from = kNaN;
-  double to = kNaN;
-
-  void include(double value) {  // fmin and fmax pass over NaN
-    from = std::fmin(from, value);
-    to = std::fmax(to, value);
-  }
-  double length() const { return to - from; }
-  void widen_to(double length) {
-    const double middle = (from + to) / 2;
-    from = middle - length / 2;
-    to = middle + length / 2;
-  }
-};
-
-struct Area {
-  Extent east;
-  Extent north;
-
-  void include(const std::vector<Point>& points) {
-    for (const Point& point : points) {
-      east.include(point.x);
-      north.include(point.y);
-    }
-  }
-};
-
 // Around what was driven. Of the segment's line only the part near it is shown: a long segment
 // driven in part would leave the drive as a speck.
-Area area_of(const PlanView& plan) {
+PlanArea area_of(const PlanView& plan) {
   constexpr double kLeastWidthM = 10;
   constexpr double kLeastHeightShare = 0.3;
   constexpr double kMostHeightShare = 0.62;
-  Area area;
+  PlanArea area;
   area.include(plan.path);
   area.include(plan.fixes);
   if (std::isnan(area.east.from)) area.include(plan.line);
@@ -127,21 +93,6 @@ Area area_of(const PlanView& plan) {
       std::max(kLeastHeightShare * area.east.length(), area.north.length() + 2 * margin_m));
   area.east.widen_to(std::max(area.east.length(), area.north.length() / kMostHeightShare));
   return area;
-}
-
-// Only so many ticks that both axes have the same step.
-Axis same_step_axis(const std::string& label, const Extent& extent, double step) {
-  return Axis::spanning(label, extent.from, extent.to,
-                        static_cast<int>(std::ceil(extent.length() / step)));
-}
-
-void draw_scale_bar(Chart& chart, const Area& area) {
-  const double length_m = plot::round_ticks(0, area.east.length(), 6).step;
-  const double right = area.east.to - 0.03 * area.east.length();
-  const double y = area.north.from + 0.07 * area.north.length();
-  chart.line({{right - length_m, y}, {right, y}}, "scale");
-  chart.word({right - length_m / 2, y}, 0, -6, "mid",
-             plot::number(length_m, plot::round_ticks(0, length_m, 1).decimals) + " m");
 }
 
 // The worst on top, where they cannot be missed.
@@ -217,11 +168,8 @@ Figure map_figure(const ReportInput& input, const ReportSeries& series) {
   if (!origin) return figure;
   figure.caption = map_caption(chief);
   const PlanView plan = plan_view(input, series, *origin);
-  const Area area = area_of(plan);
-  const double step = plot::round_ticks(area.east.from, area.east.to, 7).step;
-  Chart chart = Chart::of_equal_units(same_step_axis("east (m)", area.east, step),
-                                      same_step_axis("north (m)", area.north, step),
-                                      "The segment, the recorded path and the fixes in plan view");
+  const PlanArea area = area_of(plan);
+  Chart chart = plan_chart(area, "The segment, the recorded path and the fixes in plan view");
   chart.line(plan.line, "road");
   chart.line(plan.path, "path");
   draw_frames_without_fix(chart, plan, chief);

@@ -7,6 +7,7 @@
 #include "client/cli/plot/chart.h"
 #include "client/cli/plot/text.h"
 #include "client/cli/report_figures.h"
+#include "client/cli/report_numbers.h"
 
 namespace milepost {
 namespace {

@@ -43,24 +43,8 @@ struct ReportSeries {
 
 ReportSeries report_series(const ReportInput& input);
 
-// The value below which that share of `ascending` lies, between neighbours in proportion.
-// NaN without values.
-double quantile(const std::vector<double>& ascending, double share);
-
 // The methods of which `shown` is true, with the scales of all; another chief where it is not.
 ReportSeries only(const ReportSeries& all, const std::function<bool(const MethodSeries&)>& shown);
-
-// How far a scale must reach for values that are no outliers: the greatest, but at most 2.5 times
-// the 90th percentile, which is four sigmas of a normal distribution; and a little headroom. 0
-// without a finite value.
-double robust_reach(std::vector<double> magnitudes);
-
-// "0.063 m", "0.21 m", "1.30 m": two digits that matter.
-std::string metres(double value);
-// "1 frame", "2 frames".
-std::string counted(std::size_t count, const std::string& noun);
-// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& words);
 
 // One coloured name a method, as HTML.
 std::string method_legend(const ReportSeries& series);

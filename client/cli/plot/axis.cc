@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "client/cli/plot/text.h"
+
 namespace milepost::plot {
 namespace {
 
@@ -52,6 +54,29 @@ Axis Axis::rounded(std::string label, double from, double to, int most_ticks) {
   const double low = std::floor(start / step + kTickTolerance) * step;
   const double high = std::ceil(end / step - kTickTolerance) * step;
   return {std::move(label), low, high, round_ticks(low, high, most_ticks + 2)};
+}
+
+Axis Axis::logarithmic(std::string label, double from, double to) {
+  const bool has_logarithms = from > 0 && std::isfinite(to) && from < to;
+  const double low = has_logarithms ? from : 0.1;
+  const double high = has_logarithms ? to : 10;
+  Ticks ticks;
+  const auto first = std::lround(std::ceil(std::log10(low) - kTickTolerance));
+  const auto last = std::lround(std::floor(std::log10(high) + kTickTolerance));
+  for (auto power = first; power <= last; ++power) {
+    ticks.values.push_back(std::pow(10.0, static_cast<double>(power)));
+  }
+  return {std::move(label), low, high, std::move(ticks), Scale::logarithmic};
+}
+
+std::string Axis::tick_text(double tick) const {
+  if (scale_ == Scale::linear) return number(tick, ticks_.decimals);
+  return number(tick, std::max(0, static_cast<int>(std::ceil(-std::log10(tick) - kTickTolerance))));
+}
+
+double Axis::share(double value) const {
+  if (scale_ == Scale::linear) return (value - from_) / (to_ - from_);
+  return std::log(value / from_) / std::log(to_ / from_);
 }
 
 }  // namespace milepost::plot

@@ -23,23 +23,31 @@ class Axis {
   static Axis spanning(std::string label, double from, double to, int most_ticks = 7);
   // With the ends moved outwards to the next ticks.
   static Axis rounded(std::string label, double from, double to, int most_ticks = 6);
+  // By the logarithm, with ticks at the powers of ten. Ends that are not above 0, or leave no
+  // length between them, are replaced by some that do.
+  static Axis logarithmic(std::string label, double from, double to);
 
   const std::string& label() const { return label_; }  // with the unit: "error (m)"
   double from() const { return from_; }
   double to() const { return to_; }
   const Ticks& ticks() const { return ticks_; }
-  // 0 at from, 1 at to; values outside the axis lie outside [0, 1].
-  double share(double value) const { return (value - from_) / (to_ - from_); }
+  std::string tick_text(double tick) const;
+  // 0 at from, 1 at to; values outside the axis lie outside [0, 1]. Not finite where a logarithm
+  // would not be.
+  double share(double value) const;
   bool contains(double value) const { return from_ <= value && value <= to_; }
 
  private:
-  Axis(std::string label, double from, double to, Ticks ticks)
-      : label_(std::move(label)), from_(from), to_(to), ticks_(std::move(ticks)) {}
+  enum class Scale { linear, logarithmic };
+
+  Axis(std::string label, double from, double to, Ticks ticks, Scale scale = Scale::linear)
+      : label_(std::move(label)), from_(from), to_(to), ticks_(std::move(ticks)), scale_(scale) {}
 
   std::string label_;
   double from_;
   double to_;
   Ticks ticks_;
+  Scale scale_;
 };
 
 }  // namespace milepost::plot

@@ -128,6 +128,17 @@ void Chart::arrows_beyond(const std::vector<Point>& points, const std::string& c
   }
 }
 
+void Chart::shared(const std::string& id) {
+  const double width = x_.share(1) - x_.share(0);
+  const double height = y_.share(1) - y_.share(0);
+  canvas_ += "<use" + attribute("href", "#" + id) +
+             attribute("transform", "matrix(" + coordinate(width * kCanvas, 6) + " 0 0 " +
+                                        coordinate(height * kCanvas, 6) + " " +
+                                        coordinate(x_.share(0) * kCanvas, 6) + " " +
+                                        coordinate((1 - y_.share(0)) * kCanvas, 6) + ")") +
+             "/>\n";
+}
+
 void Chart::circle(const Point& at, double radius_px, const std::string& css_class,
                    const std::string& text) {
   if (!x_.contains(at.x) || !y_.contains(at.y)) return;
@@ -209,13 +220,12 @@ std::string Chart::tick_labels() const {
   std::string labels;
   for (const double value : y_.ticks().values) {
     labels += R"(<text class="end" x="-8" dy=".35em")" +
-              attribute("y", percent(1 - y_.share(value))) + ">" +
-              number(value, y_.ticks().decimals) + "</text>\n";
+              attribute("y", percent(1 - y_.share(value))) + ">" + y_.tick_text(value) +
+              "</text>\n";
   }
   for (const double value : x_.ticks().values) {
     labels += R"(<text class="mid" y="100%")" + attribute("dy", whole(below_px)) +
-              attribute("x", percent(x_.share(value))) + ">" + number(value, x_.ticks().decimals) +
-              "</text>\n";
+              attribute("x", percent(x_.share(value))) + ">" + x_.tick_text(value) + "</text>\n";
   }
   labels += R"(<text class="mid name" x="50%" y="100%")" + attribute("dy", whole(below_px + 20)) +
             ">" + escaped(x_.label()) + "</text>\n";

@@ -41,6 +41,9 @@ class Chart {
   void area(const std::vector<Point>& points, const std::string& css_class);
   // An arrow at the edge for each point above or below the y axis's range.
   void arrows_beyond(const std::vector<Point>& points, const std::string& css_class);
+  // The element of the document with that id, drawn in the units of the axes, but with y downwards
+  // from 0. REQUIRES: the axes are not logarithmic.
+  void shared(const std::string& id);
   // A circle that shows `text` while the pointer rests on it; none outside the plot.
   void circle(const Point& at, double radius_px, const std::string& css_class,
               const std::string& text);

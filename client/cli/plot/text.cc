@@ -109,6 +109,8 @@ std::string signed_number(double value, int decimals) {
   return value > 0 && std::isfinite(value) && !is_zero(text) ? "+" + text : text;
 }
 
+std::string coordinate(double value, int decimals) { return fixed(value, decimals); }
+
 std::string percent(double share) { return fixed(share * 100, 2) + "%"; }
 
 }  // namespace milepost::plot

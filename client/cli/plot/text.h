@@ -15,6 +15,9 @@ std::string number(double value, int decimals);
 // The same with a plus sign before what rounds to more than zero.
 std::string signed_number(double value, int decimals);
 
+// For attributes: "-0.25". REQUIRES: value is finite.
+std::string coordinate(double value, int decimals);
+
 // For attributes: a share as a percentage with two decimals, "33.12%". REQUIRES: share is finite.
 std::string percent(double share);
 

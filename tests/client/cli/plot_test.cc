@@ -53,6 +53,25 @@ TEST(PlotText, PercentForAttributes) {
   EXPECT_EQ(percent(-0.5), "-50.00%");
 }
 
+TEST(PlotAxis, ALogarithmicAxisHasTicksAtPowersOfTen) {
+  const Axis axis = Axis::logarithmic("error (m)", 0.1, 100);
+  EXPECT_THAT(axis.ticks().values, ElementsAre(DoubleNear(0.1, 1e-9), DoubleNear(1, 1e-9),
+                                               DoubleNear(10, 1e-9), DoubleNear(100, 1e-9)));
+  EXPECT_EQ(axis.tick_text(axis.ticks().values[0]), "0.1");
+  EXPECT_EQ(axis.tick_text(axis.ticks().values[3]), "100");
+  EXPECT_NEAR(axis.share(1), 1.0 / 3, 1e-9);
+  EXPECT_FALSE(std::isfinite(axis.share(0)));
+  EXPECT_LT(Axis::logarithmic("", 0, 5).from(), Axis::logarithmic("", 0, 5).to());
+  EXPECT_GT(Axis::logarithmic("", kNaN, kNaN).from(), 0);
+}
+
+TEST(PlotChart, ASharedShapeIsPlacedInTheUnitsOfTheAxes) {
+  Chart chart = Chart::of_equal_units(Axis::spanning("", 10, 30), Axis::spanning("", 0, 10), "");
+  chart.shared("ground");
+  EXPECT_THAT(chart.svg(), HasSubstr("<use href=\"#ground\" transform=\"matrix(500.000000 0 0 "
+                                     "1000.000000 -5000.000000 10000.000000)\"/>"));
+}
+
 TEST(PlotAxis, TicksAreRound) {
   const Ticks ticks = round_ticks(-0.13, 0.34, 6);
   EXPECT_DOUBLE_EQ(ticks.step, 0.1);

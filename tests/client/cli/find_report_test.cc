@@ -1,0 +1,197 @@
+// The report of a found drive: a real finder looks on black frames between four walls, and what it
+// is said to have found is made up, so that a test knows what must be told and drawn.
+#include "client/cli/find_report.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <regex>
+
+#include "client/cli/find_errors.h"
+#include "schema/base/file.h"
+#include "tests/client/cli/report_input.h"
+#include "tests/support/temp_folder.h"
+
+namespace milepost {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::straight_drive;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const std::vector<Wall> kYard = {{{48.999, 8.399}, {49.001, 8.399}, 0.5},
+                                 {{49.001, 8.399}, {49.001, 8.401}, 0.5},
+                                 {{49.001, 8.401}, {48.999, 8.401}, 0.5},
+                                 {{48.999, 8.401}, {48.999, 8.399}, 0.5}};
+
+FindStatus status_of(std::size_t frame, std::size_t found_from) {
+  return frame < found_from ? FindStatus::initializing : FindStatus::tracking;
+}
+
+// A run in which each fix lies 2 m north of the truth and looks 3 degrees too far clockwise.
+struct FoundRun {
+  explicit FoundRun(std::size_t frames, std::size_t found_from) : drive(straight_drive(frames)) {
+    FinderSettings settings;
+    settings.particles = 200;
+    Finder finder(kYard, {300, 300, 32, 24}, settings);
+    const cv::Mat black = cv::Mat::zeros(48, 64, CV_8UC1);
+    for (std::size_t i = 0; i < frames; ++i) {
+      finder.find(black, drive.frames[i].timestamp_s);
+      FindFix fix;
+      fix.timestamp_s = drive.frames[i].timestamp_s;
+      fix.status = status_of(i, found_from);
+      const LocalFrame here(drive.frames[i].position);
+      fix.position = here.geo_from_enu({0, 2, 0});
+      fix.heading_deg = 3;
+      fix.sigma_m = 0.9;
+      fix.heading_sigma_deg = 2;
+      fix.mass = 0.5;
+      found.push_back({drive.frames[i].filename, fix, 10 + static_cast<double>(i)});
+      recorder.observe(i, fix.status, finder);
+    }
+  }
+
+  FindReportInput input() const {
+    FindReportInput input;
+    input.map_name = "town (build 4f1c9a2b)";
+    input.map_source = "town.map";
+    input.drive = &drive;
+    input.frames = &found;
+    input.recorder = &recorder;
+    return input;
+  }
+
+  Drive drive;
+  std::vector<FoundFrame> found;
+  FindRecorder recorder;
+};
+
+// Whether Python's XML parser reads the whole document.
+bool is_well_formed(const std::string& html) {
+  const testing::TempFolder folder;
+  const std::string file = (folder / "report.html").string();
+  EXPECT_TRUE(write_text_file(file, html).ok());
+  const std::string script = "import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])";
+  const std::string command =
+      std::string(MILEPOST_PYTHON) + " -c '" + script + "' '" + file + "' 2>&1";
+  return std::system(command.c_str()) == 0;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+std::vector<std::size_t> frames_of(const std::vector<FindSnapshot>& snapshots) {
+  std::vector<std::size_t> frames;
+  for (const FindSnapshot& snapshot : snapshots) frames.push_back(snapshot.frame);
+  return frames;
+}
+
+TEST(FindSummary, CountsFromTheFirstTrackedFrame) {
+  const FoundRun run(40, 10);
+  const FindSummary summary = find_summary(run.found, find_errors(run.drive, run.found));
+  EXPECT_EQ(summary.frames, 40U);
+  EXPECT_EQ(summary.tracked_frames, 30U);
+  EXPECT_EQ(summary.found_frame, 10U);
+  EXPECT_NEAR(summary.found_after_s, 1, 1e-9);
+  EXPECT_NEAR(summary.position_m.mean, 2, 0.001);
+  EXPECT_NEAR(summary.position_m.max, 2, 0.001);
+  EXPECT_NEAR(summary.heading_deg.p50, 3, 1e-9);
+  EXPECT_EQ(summary.position_m.within_2_sigma, 0);
+  EXPECT_EQ(summary.heading_deg.within_2_sigma, 1);
+  EXPECT_NEAR(summary.latency_ms_p50, 29.5, 1e-9);
+}
+
+TEST(FindSummary, HeadingsAreComparedAcrossNorth) {
+  FoundRun run(2, 0);
+  run.drive.frames[1].heading_deg = 359;
+  EXPECT_NEAR(find_errors(run.drive, run.found)[1].heading_deg, 4, 1e-9);
+}
+
+TEST(FindRecorder, ShowsStartSearchFindingAndEnd) {
+  const FoundRun run(200, 100);
+  const auto frames = frames_of(run.recorder.chosen(6));
+  ASSERT_EQ(frames.size(), 6U);
+  EXPECT_EQ(frames[0], 0U);
+  EXPECT_NEAR(static_cast<double>(frames[1]), 50, 4);
+  EXPECT_EQ(frames[2], 100U);
+  EXPECT_NEAR(static_cast<double>(frames[3]), 133, 4);
+  EXPECT_EQ(frames[5], 199U);
+}
+
+TEST(FindRecorder, OneFrameIsOneSnapshot) {
+  EXPECT_EQ(frames_of(FoundRun(1, 0).recorder.chosen(6)), std::vector<std::size_t>{0});
+}
+
+TEST(FindReport, TellsTheFigures) {
+  const std::string html = find_report_html(FoundRun(40, 10).input());
+  EXPECT_TRUE(is_well_formed(html));
+  EXPECT_THAT(html, HasSubstr("Found after 1.0 s, and tracked in 30 of 40 frames."));
+  EXPECT_THAT(html, HasSubstr("<dd>75.0\u00A0%"));
+  EXPECT_THAT(html, HasSubstr(R"(<td data-label="p95" data-unit="m">2.00</td>)"));
+  EXPECT_THAT(html, HasSubstr(R"(<td data-label="mean" data-unit="°">3.00</td>)"));
+  EXPECT_EQ(count_of(html, "href=\"#ground\""), 7U);  // six snapshots and the path
+  EXPECT_EQ(count_of(html, "id=\"ground\""), 1U);
+}
+
+TEST(FindReport, AVehicleThatIsNeverFoundIsToldOf) {
+  const std::string html = find_report_html(FoundRun(5, 5).input());
+  EXPECT_TRUE(is_well_formed(html));
+  EXPECT_THAT(html, HasSubstr("The vehicle was not found in 5 frames."));
+  EXPECT_THAT(html, HasSubstr("<dd>never</dd>"));
+}
+
+TEST(FindReport, IsTheSameEachTime) {
+  EXPECT_EQ(find_report_html(FoundRun(30, 10).input()), find_report_html(FoundRun(30, 10).input()));
+}
+
+TEST(FindReport, WithoutRecordedPositionsNoErrorIsToldOrDrawn) {
+  FoundRun run(20, 5);
+  for (Frame& frame : run.drive.frames) frame.position.latitude_deg = kNaN;
+  const std::string html = find_report_html(run.input());
+  EXPECT_TRUE(is_well_formed(html));
+  const std::string body = html.substr(html.find("<body>"));
+  EXPECT_FALSE(std::regex_search(body, std::regex(R"(\b-?(nan|inf)\b)", std::regex::icase)));
+  EXPECT_THAT(html, HasSubstr("There is nothing to draw"));
+  EXPECT_THAT(html, HasSubstr("tracked in 15 of 20 frames.</p>"));
+}
+
+TEST(FindReport, NamesCannotBeMarkup) {
+  FoundRun run(3, 1);
+  run.drive.name = "<script>";
+  EXPECT_THAT(find_report_html(run.input()), Not(HasSubstr("<script>")));
+}
+
+TEST(FindReport, ABackdropLiesOnceBeneathAllPlans) {
+  const FoundRun run(20, 5);
+  FindReportInput input = run.input();
+  EXPECT_THAT(find_report_html(input), Not(HasSubstr("<image")));
+  // The walls' box is 223 m from south to north about its origin.
+  input.backdrop = Backdrop{{1, 2, 3}, {49.001, 8.399, 0}, {49.001, 8.401, 0}, {48.999, 8.399, 0}};
+  const std::string html = find_report_html(input);
+  EXPECT_TRUE(is_well_formed(html));
+  EXPECT_EQ(count_of(html, "data:image/jpeg;base64,AQID\""), 1U);
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(html, match, std::regex(R"(<image[^>]*matrix\(([^)]*)\))")));
+  std::istringstream numbers(match[1]);
+  double right_x = 0, right_y = 0, down_x = 0, down_y = 0, x = 0, y = 0;
+  numbers >> right_x >> right_y >> down_x >> down_y >> x >> y;
+  EXPECT_NEAR(right_x, 146.3, 0.2);
+  EXPECT_NEAR(down_y, 222.4, 0.2);
+  EXPECT_NEAR(x, -right_x / 2, 0.1);
+  EXPECT_NEAR(y, -down_y / 2, 0.1);
+}
+
+TEST(FindReport, ALongDriveStaysSmall) {
+  EXPECT_LT(find_report_html(FoundRun(3000, 100).input()).size(), 1'500'000U);
+}
+
+}  // namespace
+}  // namespace milepost
