@@ -5,8 +5,8 @@
 namespace milepost {
 namespace {
 
-constexpr int kSobelGain = 8;      // of OpenCV's Sobel operator of 3 x 3, to grey values a pixel
-constexpr int kGradientGain = 16;  // of Gradient
+constexpr double kSobelGain = 8;      // of OpenCV's Sobel operator of 3 x 3, to grey values a pixel
+constexpr double kGradientGain = 16;  // of Gradient
 
 // Where the picture has data within two metres.
 cv::Mat far_from_gaps(const Picture& picture) {

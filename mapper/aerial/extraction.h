@@ -80,7 +80,7 @@ struct ExtractedWalls {
 // is drawn there. `on_progress` is called from one thread at a time; the work ends with `cancelled`
 // once it returns false. Errors: those of Orthoimage; io; cancelled.
 Result<ExtractedWalls> extract_walls(
-    const ImageSource& image, const ExtractionSettings& settings, int jobs,
+    const ImageSource& source, const ExtractionSettings& settings, int jobs,
     const std::filesystem::path& pictures,
     const std::function<bool(const ExtractionProgress&)>& on_progress);
 

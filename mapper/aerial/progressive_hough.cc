@@ -237,9 +237,12 @@ class Transform {
     const double angle_rad = std::atan2(normal.y(), normal.x());
     const int angle = wrapped_angle(static_cast<int>(std::lround(angle_rad / kRadPerAngle)));
     const double half_px = settings_.clearance_m / metres_per_pixel_;
-    for (double along = 0; along <= way.norm(); along += 0.5) {
-      for (double across = -half_px; across <= half_px; across += 0.5) {
-        const cv::Point pixel = nearest_pixel(line.begin_px + along * direction + across * normal);
+    const int steps_along = static_cast<int>(2 * way.norm());  // of half a pixel
+    const int steps_across = static_cast<int>(2 * half_px);
+    for (int along = 0; along <= steps_along; ++along) {
+      for (int across = -steps_across; across <= steps_across; ++across) {
+        const cv::Point pixel =
+            nearest_pixel(line.begin_px + along / 2.0 * direction + across / 2.0 * normal);
         if (contains(pixel) && alive_.at<std::uint8_t>(pixel) != 0 && runs_along(pixel, angle)) {
           rest(pixel);
           alive_.at<std::uint8_t>(pixel) = 0;
@@ -284,6 +287,7 @@ std::vector<PixelLine> plain_hough(const cv::Mat& map, double metres_per_pixel,
                   static_cast<int>(std::lround(settings.min_support * least_px)), least_px,
                   settings.max_gap_m / metres_per_pixel);
   std::vector<PixelLine> lines;
+  lines.reserve(found.size());
   for (const cv::Vec4i& line : found) {
     lines.push_back({Eigen::Vector2d(line[0], line[1]), Eigen::Vector2d(line[2], line[3])});
   }

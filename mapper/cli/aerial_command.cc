@@ -27,7 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSettings = "Settings (each changes the walls)";
-constexpr double kImageSigmaM = 0.4;      // measured: tests/lab/walls
+constexpr double kImageSigmaM = 0.4;      // r.m.s. of what lies within 1 m of a true outline
 constexpr double kFootprintSigmaM = 0.5;  // OpenStreetMap's are drawn by hand on images
 
 const std::map<std::string, Stage> kStages = {
