@@ -1,0 +1,131 @@
+"""Finding a vehicle without a receiver: footprints -> walls -> server -> client, on the simulated street."""
+import json
+import math
+import os
+
+import commands
+from commands import CLIENT, CommandTest, MAPPER, STREET, Server, rows_of, run
+
+SIMULATOR = os.environ.get("MILEPOST_SIMULATOR", "")
+COLUMNS = ["timestamp_s", "filename", "status", "latitude_deg", "longitude_deg", "heading_deg", "sigma_m", "latency_ms"]
+MORE_COLUMNS = ["mass", "explained"]
+FOUND = {"tracking", "predicted"}
+M_PER_DEG = 111200
+
+
+class Find(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.maps = self.folder / "maps"
+        self.maps.mkdir()
+        self.map = self.maps / "street.map"
+        self.footprints = self.folder / "walls.geojson"
+        self.query = STREET / "street-query"
+        self.fixes = self.folder / "found.csv"
+        # The town that the street drives were made in.
+        self.expect_done(run(SIMULATOR, "--seed", 3, "--walls", self.footprints))
+
+    def make_walls(self):
+        self.expect_done(run(MAPPER, "aerial", "--footprints", self.footprints, "--map", self.map))
+
+    def find(self, *words):
+        return run(CLIENT, "find", "--drive", self.query, "--out", self.fixes, *words)
+
+    def truth(self):
+        """Latitude, longitude and heading of every frame: the simulator's drives are about one local origin."""
+        drive = json.loads((self.query / "drive.json").read_text())
+        origin = drive["origin"]
+        east_m_per_deg = M_PER_DEG * math.cos(math.radians(origin["latitude_deg"]))
+        return [(origin["latitude_deg"] + float(row["north_m"]) / M_PER_DEG,
+                 origin["longitude_deg"] + float(row["east_m"]) / (east_m_per_deg * 1.0023), float(row["heading_deg"]))
+                for row in rows_of(self.query / "trajectory.csv")]
+
+    def errors_m(self, rows):
+        errors = []
+        for row, (latitude, longitude, _) in zip(rows, self.truth()):
+            north = (float(row["latitude_deg"]) - latitude) * M_PER_DEG
+            east = (float(row["longitude_deg"]) - longitude) * M_PER_DEG * math.cos(math.radians(latitude))
+            errors.append(math.hypot(north, east))
+        return errors
+
+    def start_words(self):
+        latitude, longitude, heading = self.truth()[0]
+        return ["--start", f"{latitude:.7f},{longitude:.7f}", "--start-sigma-m", 1, "--start-heading-deg", heading]
+
+    def test_a_known_start_is_kept_and_the_table_is_as_designed(self):
+        self.make_walls()
+        self.expect_done(self.find("--map", self.map, *self.start_words()))
+        rows = rows_of(self.fixes)
+        self.assertEqual(list(rows[0]), COLUMNS + MORE_COLUMNS)
+        drive_rows = rows_of(self.query / "trajectory.csv")
+        self.assertEqual([row["filename"] for row in rows], [row["filename"] for row in drive_rows])
+        errors = self.errors_m(rows)
+        self.assertLess(sum(errors) / len(errors), 4)
+        found = [error for error, row in zip(errors, rows) if row["status"] in FOUND]
+        self.assertTrue(found, "the vehicle was not found")
+        self.assertLess(max(found), 6)
+        for row, (_, _, heading) in zip(rows, self.truth()):
+            if row["status"] in FOUND:
+                self.assertLess(abs((float(row["heading_deg"]) - heading + 180) % 360 - 180), 6)
+
+    def test_the_server_gives_what_the_file_gives(self):
+        self.make_walls()
+        self.expect_done(self.find("--map", self.map, *self.start_words()))
+        names = [name for name in COLUMNS + MORE_COLUMNS if name != "latency_ms"]
+        from_file = [[row[name] for name in names] for row in rows_of(self.fixes)]
+        with Server(self.maps) as server:
+            cache = self.folder / "cache"
+            self.expect_done(self.find("--server", server.url, "--cache", cache, *self.start_words()))
+        from_server = [[row[name] for name in names] for row in rows_of(self.fixes)]
+        self.assertEqual(from_server, from_file)
+
+    def test_what_is_found_starts_the_route_localizer(self):
+        self.expect_done(self.build(STREET / "street-map", self.map))
+        self.make_walls()
+        localized = self.folder / "localized.csv"
+        self.expect_done(self.find("--map", self.map, *self.start_words(), "--localize-out", localized))
+        rows = rows_of(localized)
+        found = [row["status"] in FOUND for row in rows_of(self.fixes)]
+        self.assertIn(True, found)
+        first = found.index(True)
+        self.assertTrue(all(row["along_m"] == "" for row in rows[:first]))
+        tracked = [row for row in rows if row["status"] == "tracking"]
+        self.assertGreater(len(tracked), 3)
+        for row in tracked[1:]:
+            self.assertLess(float(row["sigma_m"]), 0.3)
+
+    def test_the_report_is_a_page_of_its_own(self):
+        self.make_walls()
+        report = self.folder / "report.html"
+        self.expect_done(self.find("--map", self.map, "--report", report, *self.start_words()))
+        page = report.read_text()
+        self.assertTrue(page.startswith("<!DOCTYPE html>") or page.startswith("<!doctype html>"), page[:40])
+        self.assertIn("<svg", page)
+        self.assertNotIn("http://", page.replace("http://www.w3.org", ""))
+
+    def test_the_papers_method_runs_too(self):
+        self.make_walls()
+        self.expect_done(self.find("--map", self.map, "--method", "orientations", "--particles", 300, *self.start_words()))
+        self.assertEqual(len(rows_of(self.fixes)), len(self.truth()))
+
+    def test_no_walls_and_no_odometry_are_told_in_a_line(self):
+        self.expect_done(self.build(STREET / "street-map", self.map))
+        result = self.find("--map", self.map)
+        self.expect_refused(result, 1, "no map has the layer walls")
+        self.make_walls()
+        result = self.find("--map", self.map, "--area", "1,1,1.1,1.1")
+        self.expect_refused(result, 1, "there are no walls in the area")
+        result = self.find("--map", self.map, "--map-name", "town")
+        self.expect_refused(result, 1, "no map 'town' with walls, but street")
+        copy = self.copy_of(self.query)
+        (copy / "odometry.csv").unlink()
+        result = run(CLIENT, "find", "--drive", copy, "--map", self.map, "--out", self.fixes)
+        self.expect_refused(result, 1, "odometry.csv: there is nothing that says how the vehicle moved")
+
+    def test_wrong_words_are_refused(self):
+        for words in (["--map", "m", "--particles", 0], ["--map", "m", "--method", "stars"], ["--map", "m", "--area", "1,2,3"],
+                      ["--map", "m", "--start-sigma-m", 3], []):
+            self.assertEqual(self.find(*words).returncode, 2, words)
+
+
+commands.main() if __name__ == "__main__" else None
