@@ -59,6 +59,7 @@ std::vector<FindSnapshot> FindRecorder::chosen(std::size_t most) const {
     show_near(since + length * static_cast<double>(k) / static_cast<double>(left + 1));
   }
   std::vector<FindSnapshot> snapshots;
+  snapshots.reserve(shown.size());
   for (const auto& [frame, snapshot] : shown) snapshots.push_back(*snapshot);
   return snapshots;
 }

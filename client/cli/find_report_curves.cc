@@ -99,8 +99,8 @@ std::vector<HoverStrip> hover_strips(const FoundSeries& series) {
 }
 
 std::string legend(const std::string& value, const std::string& other) {
-  return "<p class=\"legend\"><span class=\"m0\"><i></i>" + value +
-         "</span> <span class=\"m1\"><i></i>" + other + "</span></p>\n";
+  return R"(<p class="legend"><span class="m0"><i></i>)" + value +
+         R"(</span> <span class="m1"><i></i>)" + other + "</span></p>\n";
 }
 
 std::string status_legend() {

@@ -55,7 +55,7 @@ std::string walls_of(const std::vector<PlanWall>& walls) {
     return coordinate(enu_m.x(), 2) + " " + coordinate(-enu_m.y(), 2);
   };
   for (const PlanWall& wall : walls) data += "M" + place(wall.begin_m) + "L" + place(wall.end_m);
-  return "<path class=\"wall\" d=\"" + data + "\"/>\n";
+  return R"(<path class="wall" d=")" + data + "\"/>\n";
 }
 
 PlanArea of_even_shape(PlanArea area, double least_width_m) {

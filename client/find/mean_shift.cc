@@ -39,10 +39,12 @@ std::vector<PlanPose> starts_in(const ParticleCloud& cloud, const ModeKernel& ke
     }
   }
   std::vector<Heap> heaps;
+  heaps.reserve(bins.size());
   for (const auto& [bin, heap] : bins) heaps.push_back(heap);
   std::ranges::stable_sort(heaps, std::greater{}, &Heap::weight);
   heaps.resize(std::min(heaps.size(), kStarts));
   std::vector<PlanPose> starts;
+  starts.reserve(heaps.size());
   for (const Heap& heap : heaps) starts.push_back(heap.heaviest->pose);
   return starts;
 }

@@ -1,5 +1,5 @@
 // How well the points that a camera saw agree with the walls about a pose: each is looked for along
-// its bearing. Ours beside the paper's importance by orientations (decision 21).
+// its bearing. Ours beside the paper's importance by orientations (decision 22).
 #pragma once
 
 #include <span>

@@ -151,6 +151,7 @@ std::vector<ScenePointTracker::Match> ScenePointTracker::matches_of(
 void ScenePointTracker::follow(const std::vector<Feature>& features, const CameraMotion& wheels) {
   const std::vector<Match> matches = matches_of(features, wheels);
   std::vector<RayPair> pairs;
+  pairs.reserve(matches.size());
   for (const Match& match : matches) {
     pairs.push_back({tracks_[match.track].last.ray, features[match.feature].ray});
   }

@@ -61,7 +61,7 @@ class ScenePointTracker {
   std::vector<Feature> features_of(const cv::Mat& gray) const;
   std::vector<Match> matches_of(const std::vector<Feature>& features,
                                 const CameraMotion& motion) const;
-  void follow(const std::vector<Feature>& features, const CameraMotion& motion);
+  void follow(const std::vector<Feature>& features, const CameraMotion& wheels);
   std::vector<ScenePoint> triangulated() const;
 
   Pinhole view_;

@@ -20,7 +20,7 @@ constexpr double kStandsRad = 0.001;
 
 // What a metre of way adds to the evidence, as a part of what its beams say: points seen in frame
 // after frame on the same walls, by the same wheels, are hardly news.
-constexpr double kEvidencePerM = 0.0125;
+constexpr double kEvidencePerM = 0.007;
 constexpr double kTrackedEvidencePerM = 0.03;
 constexpr double kMaxEvidenceWayM = 5;
 

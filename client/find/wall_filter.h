@@ -17,7 +17,7 @@ namespace milepost {
 
 enum class FindMethod {
   orientations,  // the paper's: wall orientations by bearing, Eqs. 2 to 4
-  ranges,        // ours (decision 21): how far away what is seen stands
+  ranges,        // ours (decision 22): how far away what is seen stands
 };
 
 struct FilterSettings {
