@@ -14,4 +14,4 @@ find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
-find_package(GDAL 3.6 CONFIG REQUIRED)  # only the simulator links it
+find_package(GDAL 3.6 CONFIG REQUIRED)  # the simulator and milepost-mapper link it

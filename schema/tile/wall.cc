@@ -10,8 +10,7 @@ namespace {
 
 void sort_once_each(std::vector<Wall>& walls) {
   std::ranges::sort(walls);
-  const auto repeated = std::ranges::unique(walls);
-  walls.erase(repeated.begin(), repeated.end());
+  walls.erase(std::unique(walls.begin(), walls.end()), walls.end());
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct WallEnd {
   double latitude_deg = 0;   // [-90, 90], WGS84
   double longitude_deg = 0;  // [-180, 180], WGS84
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): what clang-tidy makes of any defaulted <=>
   friend auto operator<=>(const WallEnd&, const WallEnd&) = default;
 };
 
@@ -22,6 +23,7 @@ struct Wall {
   WallEnd begin, end;    // the interior of a building, where it is known, is on the right
   double sigma_m = 0.5;  // of a point's distance from the true wall: (0, 655], steps of 1 cm
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): what clang-tidy makes of any defaulted <=>
   friend auto operator<=>(const Wall&, const Wall&) = default;
 };
 
