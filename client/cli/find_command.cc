@@ -211,6 +211,12 @@ int run_find(const std::string& program, std::vector<std::string> words) {
     return kExitWrongCall;
   }
 
+  if (!options.start_deg.empty() && !is_valid({options.start_deg[0], options.start_deg[1], 0})) {
+    std::cerr << program << ": --start is no latitude and longitude; see '" << program
+              << " --help'\n";
+    return kExitWrongCall;
+  }
+
   const Result<Drive> drive = read_drive(options.drive);
   if (!drive) return fail(program, drive.error());
   const Result<std::shared_ptr<MapSource>> source = open_source(options.source);

@@ -89,7 +89,7 @@ void WallFilter::weigh(ParticleCloud& cloud, const WallObservation& observation,
     const PlanPose& pose = cloud[i].pose;
     if (settings_.method == FindMethod::ranges) {
       log_likelihoods[i] =
-          weighing.metres *
+          weighing.evidence *
           range_agreement(pose, observation.beams, walls_, weighing.ranges).log_likelihood;
     } else if (!observation.sections.empty()) {
       // Eq. 4; a particle that explains nothing keeps a trace, so that the weights have a sum.

@@ -50,7 +50,7 @@ class WallFilter {
 
  private:
   struct Weighing {
-    double metres = 0;  // by which the evidence of beams counts
+    double evidence = 0;  // the part of what the beams say that counts
     RangeSettings ranges;
   };
 

@@ -124,7 +124,8 @@ class Find(CommandTest):
 
     def test_wrong_words_are_refused(self):
         for words in (["--map", "m", "--particles", 0], ["--map", "m", "--method", "stars"], ["--map", "m", "--area", "1,2,3"],
-                      ["--map", "m", "--start-sigma-m", 3], []):
+                      ["--map", "m", "--start-sigma-m", 3], ["--map", "m", "--start", "91,8"],
+                      ["--map", "m", "--start", "nan,8"], []):
             self.assertEqual(self.find(*words).returncode, 2, words)
 
 
