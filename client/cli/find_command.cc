@@ -10,12 +10,13 @@
 #include "client/cli/source_options.h"
 #include "client/fetch/walls.h"
 #include "schema/base/file.h"
+#include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
 
 const std::map<std::string, FindMethod> kMethods = {{"orientations", FindMethod::orientations},
-                                                    {"ranges", FindMethod::ranges}};
+                                                    {"combined", FindMethod::combined}};
 
 struct Options {
   SourceOptions source;
@@ -29,7 +30,7 @@ struct Options {
   std::string localized_out;
   std::string report;
   std::string backdrop;
-  std::string method = "ranges";
+  std::string method = "combined";
   int particles = 2000;
   int seed = 1;
 };
@@ -65,15 +66,35 @@ Result<MapDescription> map_to_search(MapSource& source, const Options& options) 
                "choose one of these by --map-name"};
 }
 
-// Errors: those of walls_in; not_found where the area has none.
+// How far outside of its area a vehicle sees walls.
+constexpr double kViewM = 80;
+
+std::optional<Bounds> area_of(const Options& options) {
+  const auto& area = options.area_deg;
+  if (area.empty()) return std::nullopt;
+  return Bounds{area[0], area[1], area[2], area[3]};
+}
+
+Bounds with_view(const Bounds& area) {
+  const GeoPoint south_west =
+      LocalFrame({area.south_deg, area.west_deg, 0}).geo_from_enu({-kViewM, -kViewM, 0});
+  const GeoPoint north_east =
+      LocalFrame({area.north_deg, area.east_deg, 0}).geo_from_enu({kViewM, kViewM, 0});
+  return {south_west.longitude_deg, south_west.latitude_deg, north_east.longitude_deg,
+          north_east.latitude_deg};
+}
+
+// The walls that are seen from the area. Errors: those of walls_in; not_found where the area has
+// none.
 Result<std::vector<Wall>> walls_to_search(MapSource& source, const MapDescription& map,
                                           const Options& options) {
-  const auto& area = options.area_deg;
-  const Bounds box = area.empty() ? map.bounds : Bounds{area[0], area[1], area[2], area[3]};
-  Result<std::vector<Wall>> walls = walls_in(source, map.version, kWallsLayer, box);
+  const Bounds area = area_of(options).value_or(map.bounds);
+  const Bounds view = with_view(area);
+  Result<std::vector<Wall>> walls = walls_in(source, map.version, kWallsLayer, view);
   if (!walls) return walls.error();
-  std::erase_if(*walls, [&](const Wall& wall) { return !bounds_of(wall).meets(box); });
-  if (walls->empty()) {
+  std::erase_if(*walls, [&](const Wall& wall) { return !bounds_of(wall).meets(view); });
+  const auto is_inside = [&](const Wall& wall) { return bounds_of(wall).meets(area); };
+  if (std::ranges::none_of(*walls, is_inside)) {
     return Error{ErrorCode::not_found, "map '" + map.version.map + "'",
                  "there are no walls in the area", "choose another area by --area"};
   }
@@ -99,6 +120,7 @@ FinderSettings finder_settings(const Options& options, bool has_heading) {
   settings.method = kMethods.at(options.method);
   settings.particles = static_cast<std::size_t>(options.particles);
   settings.seed = static_cast<std::uint64_t>(options.seed);
+  settings.area = area_of(options);
   if (!options.start_deg.empty()) {
     settings.start = FindStart{
         {options.start_deg[0], options.start_deg[1], 0}, options.start_sigma_m, std::nullopt};
@@ -145,7 +167,8 @@ void add_options(CLI::App& app, Options& options) {
       ->option_text("FILE");
   app.add_option("--map-name", options.map_name, "Which map, where several have walls")
       ->option_text("NAME");
-  app.add_option("--area", options.area_deg, "Only the walls in this box of WGS84 degrees")
+  app.add_option("--area", options.area_deg,
+                 "Box of WGS84 degrees that the vehicle is in (default: all of the map)")
       ->expected(4)
       ->delimiter(',')
       ->option_text("W,S,E,N");
@@ -161,8 +184,9 @@ void add_options(CLI::App& app, Options& options) {
              "Its heading then, clockwise from north, within 10 degrees", -360, 360)
       ->needs(start);
   app.add_option("--method", options.method,
-                 "ranges: points that the moving camera saw, looked for on the walls (default);\n"
-                 "orientations: orientations of walls by bearing, as published")
+                 "orientations: orientations of walls by bearing, as published;\n"
+                 "combined: these, and points that the moving camera saw, looked for on the walls\n"
+                 "(default)")
       ->check(CLI::IsMember(kMethods))
       ->option_text("M");
   add_number(app, "--particles", options.particles, "N", "Particles of the filter", 10, 1000000);

@@ -38,6 +38,13 @@ PlanBox widened(PlanBox box, double by_m) {
   return box;
 }
 
+PlanBox area_of(const FinderSettings& settings, const WallIndex& walls, const LocalFrame& frame) {
+  if (!settings.area) return widened(walls.bounds(), settings.area_margin_m);
+  const Bounds& area = *settings.area;
+  return {plan_from_geo(frame, area.south_deg, area.west_deg),
+          plan_from_geo(frame, area.north_deg, area.east_deg)};
+}
+
 StartBelief belief_of(const FindStart& start, const LocalFrame& frame) {
   StartBelief belief;
   belief.pose.enu_m =
@@ -60,7 +67,7 @@ FilterSettings filter_settings(const FinderSettings& settings, const LocalFrame&
 
 ObserverSettings observer_settings(const FinderSettings& settings) {
   ObserverSettings observer;
-  observer.with_beams = settings.method == FindMethod::ranges;
+  observer.with_beams = settings.method == FindMethod::combined;
   return observer;
 }
 
@@ -83,8 +90,7 @@ struct Finder::Impl {
         frame(origin),
         walls(index_of(geographic, frame)),
         observer(view, observer_settings(settings)),
-        filter(walls, widened(walls.bounds(), settings.area_margin_m),
-               filter_settings(settings, frame)) {}
+        filter(walls, area_of(settings, walls, frame), filter_settings(settings, frame)) {}
 
   GeoPoint origin;
   LocalFrame frame;

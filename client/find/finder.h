@@ -26,11 +26,14 @@ struct FindStart {
 };
 
 struct FinderSettings {
-  FindMethod method = FindMethod::ranges;
+  FindMethod method = FindMethod::combined;
   std::size_t particles = 2000;
   std::uint64_t seed = 1;
   std::optional<FindStart> start;  // none: anywhere in the area
-  double area_margin_m = 10;       // the area reaches so far beyond the walls
+  // Where the vehicle may be; none: within area_margin_m of the walls. Walls outside of it are seen
+  // from within.
+  std::optional<Bounds> area;
+  double area_margin_m = 10;
 };
 
 // The answer for one frame.

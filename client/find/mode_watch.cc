@@ -46,9 +46,6 @@ FindStatus ModeWatch::observe(const BeliefMode& mode, std::optional<double> expl
   return explained ? FindStatus::tracking : FindStatus::predicted;
 }
 
-double ModeWatch::doubt() const {
-  if (usually_ <= 0) return 0;
-  return std::max(0.0, 1 - lately_ / (kDoubtBelow * usually_));
-}
+bool ModeWatch::is_doubtful() const { return lately_ < kDoubtBelow * usually_; }
 
 }  // namespace milepost

@@ -39,9 +39,9 @@ class ModeWatch {
   bool is_found() const { return found_; }
   bool was_found() const { return was_found_; }
   double explained() const { return lately_; }
-  // 0 while the mode explains as much as it used to, up to 1 when it explains nothing any more
-  // (the augmented filter of Thrun, Burgard and Fox, Probabilistic Robotics, 2005, Table 8.3).
-  double doubt() const;
+  // Whether the mode explains much less than it used to (as the augmented filter of Thrun, Burgard
+  // and Fox notices it, Probabilistic Robotics, 2005, Table 8.3).
+  bool is_doubtful() const;
 
  private:
   WatchSettings settings_;

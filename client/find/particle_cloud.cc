@@ -65,7 +65,7 @@ std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const Mo
   return drawn_anew;
 }
 
-void weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods) {
+double weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods) {
   const double best = *std::ranges::max_element(log_likelihoods);
   double total = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -73,6 +73,16 @@ void weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihood
     total += cloud[i].weight;
   }
   for (Particle& particle : cloud) particle.weight /= total;
+  return best + std::log(total);
+}
+
+void scatter_cloud(ParticleCloud& cloud, double sigma_m, double sigma_rad, Random& random) {
+  std::normal_distribution<double> normal;
+  for (Particle& particle : cloud) {
+    particle.pose.enu_m.x() += sigma_m * normal(random);
+    particle.pose.enu_m.y() += sigma_m * normal(random);
+    particle.pose.heading_rad += sigma_rad * normal(random);
+  }
 }
 
 double effective_count(const ParticleCloud& cloud) {

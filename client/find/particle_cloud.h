@@ -45,8 +45,12 @@ ParticleCloud cloud_about(const StartBelief& start, std::size_t count, Random& r
 std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const MotionNoise& noise,
                        const WallIndex& walls, const PlanBox& area, Random& random);
 
-// Multiplies weights by e^log_likelihoods[i] and makes them add up to 1.
-void weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods);
+// Multiplies weights by e^log_likelihoods[i] and makes them add up to 1. The log of the cloud's own
+// likelihood: of the weighted mean, where the weights added up to 1 before.
+double weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods);
+
+// Moves each particle by noise of its own.
+void scatter_cloud(ParticleCloud& cloud, double sigma_m, double sigma_rad, Random& random);
 
 // 1 / sum of squared weights: how many particles carry the belief.
 double effective_count(const ParticleCloud& cloud);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/find/evidence.h"
 #include "client/find/orientation_importance.h"
 #include "client/find/pose_proposals.h"
 #include "schema/geo/geodesy.h"
@@ -18,10 +19,7 @@ constexpr MotionNoise kWheelNoise{0.1, 0.03, 1 * kRadPerDeg};
 constexpr double kStandsM = 0.01;
 constexpr double kStandsRad = 0.001;
 
-// What a metre of way adds to the evidence, as a part of what its beams say: points seen in frame
-// after frame on the same walls, by the same wheels, are hardly news.
-constexpr double kEvidencePerM = 0.007;
-constexpr double kTrackedEvidencePerM = 0.03;
+// However far it went since the last frame that showed something, this is no more news.
 constexpr double kMaxEvidenceWayM = 5;
 
 // Broad while few particles have to cover an area, sharp about a place that is found.
@@ -30,10 +28,14 @@ constexpr RangeSettings kSharp{0.5, 0.02};
 
 constexpr std::size_t kStartCandidates = 10;  // for each particle
 constexpr std::size_t kParticlesPerChallenger = 10;
-constexpr std::size_t kChallengerCandidates = 5;
-constexpr double kCandidateWayM = 4;     // how much a frame says of them
-constexpr double kChallengedPerS = 0.1;  // of the belief, while nothing is found
-constexpr double kDoubtedPerS = 0.25;    // ... what was found is doubted altogether
+constexpr std::size_t kChallengerCandidates = 5;  // for each challenger
+constexpr double kCandidateWayM = 4;              // how much a frame says of them
+constexpr double kChallengerSigmaM = 1.5;         // how far they lie from the best place about
+constexpr double kChallengerSigmaRad = 2 * kRadPerDeg;
+constexpr std::size_t kDefenders = 100;    // particles of the belief that they are held against
+constexpr double kDefendersAdvantage = 1;  // of log-likelihood
+constexpr double kHistoryPart = 0.5;       // of the evidence of the way behind: wheels err
+constexpr double kMaxChallengedPart = 0.5;
 
 constexpr double kBinM = 1;
 constexpr double kBinRad = 5 * kRadPerDeg;
@@ -48,61 +50,83 @@ WallFilter::WallFilter(const WallIndex& walls, const PlanBox& area, const Filter
       cloud_(settings.start ? cloud_about(*settings.start, settings.particles, random_)
                             : uniform_cloud(settings.particles, area, random_)),
       watch_(settings.watch),
+      history_(settings.history),
       is_started_(settings.start.has_value()) {}
 
 Found WallFilter::update(const WallObservation& observation, const WheelMotion& motion) {
-  const bool is_ours = settings_.method == FindMethod::ranges;
+  const bool is_ours = settings_.method == FindMethod::combined;
   way_m_ += std::abs(motion.distance_m);
-  duration_s_ += motion.duration_s;
   if (std::abs(motion.distance_m) > kStandsM || std::abs(motion.turn_rad) > kStandsRad) {
     move_cloud(cloud_, motion, is_ours ? kWheelNoise : kPaperNoise, walls_, area_, random_);
   }
-  const bool has_both = !observation.beams.empty() && !observation.sections.empty();
-  if (is_ours && !is_started_ && has_both) {
+  const bool is_sight = history_.add(observation, motion);
+  if (is_ours && !is_started_ && !observation.beams.empty() && !observation.sections.empty()) {
     start_from(observation);
   } else {
-    const bool found = watch_.is_found();
-    weigh(cloud_, observation,
-          {std::min(way_m_, kMaxEvidenceWayM) * (found ? kTrackedEvidencePerM : kEvidencePerM),
-           found ? kSharp : kBroad});
+    weigh(cloud_, observation, std::min(way_m_, kMaxEvidenceWayM));
   }
   if (!observation.beams.empty()) way_m_ = 0;
 
   const BeliefMode mode = densest_mode(cloud_, {});
   const FindStatus status = watch_.observe(mode, explained_by(mode.pose, observation), motion);
-  if (is_ours && has_both) challenge(observation, std::exchange(duration_s_, 0));
+  if (is_ours && is_sight && !observation.sections.empty() && is_challenged()) {
+    challenge(observation);
+  }
   resample();
   return {status, mode, watch_.explained()};
 }
 
-void WallFilter::start_from(const WallObservation& observation) {
-  cloud_ = oriented_cloud(kStartCandidates * settings_.particles, observation.sections, walls_,
-                          area_, settings_.view_reach_m, random_);
-  weigh(cloud_, observation, {kCandidateWayM * kEvidencePerM, kBroad});
-  is_started_ = true;
-}
-
+// The paper's method weighs every frame alike, ours by the way driven.
 void WallFilter::weigh(ParticleCloud& cloud, const WallObservation& observation,
-                       const Weighing& weighing) const {
+                       double way_m) const {
   std::vector<double> log_likelihoods(cloud.size(), 0);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const PlanPose& pose = cloud[i].pose;
-    if (settings_.method == FindMethod::ranges) {
-      log_likelihoods[i] =
-          weighing.evidence *
-          range_agreement(pose, observation.beams, walls_, weighing.ranges).log_likelihood;
-    } else if (!observation.sections.empty()) {
+  if (settings_.method == FindMethod::orientations) {
+    if (observation.sections.empty()) return;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
       // Eq. 4; a particle that explains nothing keeps a trace, so that the weights have a sum.
-      log_likelihoods[i] = std::log(1e-9 + orientation_importance(pose, observation.sections,
-                                                                  walls_, settings_.view_reach_m));
+      log_likelihoods[i] =
+          std::log(1e-9 + orientation_importance(cloud[i].pose, observation.sections, walls_,
+                                                 settings_.view_reach_m));
+    }
+  } else {
+    if (observation.beams.empty()) return;
+    EvidenceSettings evidence;
+    evidence.ranges = watch_.is_found() ? kSharp : kBroad;
+    evidence.view_reach_m = settings_.view_reach_m;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      log_likelihoods[i] = way_m * evidence_per_m(cloud[i].pose, observation, walls_, evidence);
     }
   }
   weigh_cloud(cloud, log_likelihoods);
 }
 
+// The log of the cloud's likelihood over the way behind.
+double WallFilter::weigh_by_history(ParticleCloud& cloud) const {
+  EvidenceSettings evidence;
+  evidence.ranges = kBroad;
+  evidence.per_beam *= static_cast<double>(history_.each_beam());
+  evidence.view_reach_m = settings_.view_reach_m;
+  std::vector<double> log_likelihoods(cloud.size(), 0);
+  for (const PastSight& sight : history_.sights()) {
+    const double way_m = kHistoryPart * std::min(sight.way_m, kMaxEvidenceWayM);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const PlanPose pose = history_.pose_then(cloud[i].pose, sight);
+      log_likelihoods[i] += way_m * evidence_per_m(pose, sight.observation, walls_, evidence);
+    }
+  }
+  return weigh_cloud(cloud, log_likelihoods);
+}
+
+void WallFilter::start_from(const WallObservation& observation) {
+  cloud_ = oriented_cloud(kStartCandidates * settings_.particles, observation.sections, walls_,
+                          area_, settings_.view_reach_m, random_);
+  weigh(cloud_, observation, kCandidateWayM);
+  is_started_ = true;
+}
+
 std::optional<double> WallFilter::explained_by(const PlanPose& pose,
                                                const WallObservation& observation) const {
-  if (settings_.method == FindMethod::ranges) {
+  if (settings_.method == FindMethod::combined) {
     if (observation.beams.empty()) return std::nullopt;
     return range_agreement(pose, observation.beams, walls_, kSharp).explained;
   }
@@ -110,22 +134,31 @@ std::optional<double> WallFilter::explained_by(const PlanPose& pose,
   return orientation_importance(pose, observation.sections, walls_, settings_.view_reach_m);
 }
 
-// The part of the belief that goes to challengers. A known start is not challenged.
-double WallFilter::challenged_per_s() const {
-  if (watch_.is_found()) return kDoubtedPerS * watch_.doubt();
-  return settings_.start && !watch_.was_found() ? 0 : kChallengedPerS;
+// What is found is doubted only when it explains less than it used to; a known start is believed.
+bool WallFilter::is_challenged() const {
+  if (watch_.is_found()) return watch_.is_doubtful();
+  return !settings_.start || watch_.was_found();
 }
 
-void WallFilter::challenge(const WallObservation& observation, double duration_s) {
-  const double mass = 1 - std::exp(-challenged_per_s() * duration_s);
-  if (mass <= 0) return;
+// Challengers are drawn from the whole area by what this frame shows, and get the part of the
+// belief that they earn by explaining the way behind.
+void WallFilter::challenge(const WallObservation& observation) {
   const std::size_t count = std::max<std::size_t>(1, settings_.particles / kParticlesPerChallenger);
-  ParticleCloud candidates = oriented_cloud(kChallengerCandidates * count, observation.sections,
-                                            walls_, area_, settings_.view_reach_m, random_);
-  weigh(candidates, observation, {kCandidateWayM * kEvidencePerM, kBroad});
-  for (Particle& particle : cloud_) particle.weight *= 1 - mass;
-  for (Particle challenger : resampled(candidates, count, random_)) {
-    challenger.weight *= mass;
+  ParticleCloud challengers = oriented_cloud(kChallengerCandidates * count, observation.sections,
+                                             walls_, area_, settings_.view_reach_m, random_);
+  weigh(challengers, observation, kCandidateWayM);
+  challengers = resampled(challengers, count, random_);
+  weigh_by_history(challengers);
+  challengers = resampled(challengers, count, random_);
+  scatter_cloud(challengers, kChallengerSigmaM, kChallengerSigmaRad, random_);
+  ParticleCloud defenders = resampled(cloud_, kDefenders, random_);
+
+  const double lead =
+      weigh_by_history(challengers) - weigh_by_history(defenders) - kDefendersAdvantage;
+  const double part = std::min(1 / (1 + std::exp(-lead)), kMaxChallengedPart);
+  for (Particle& particle : cloud_) particle.weight *= 1 - part;
+  for (Particle& challenger : challengers) {
+    challenger.weight *= part;
     cloud_.push_back(challenger);
   }
 }

@@ -9,7 +9,7 @@
 
 #include "client/find/mode_watch.h"
 #include "client/find/particle_cloud.h"
-#include "client/find/range_agreement.h"
+#include "client/find/sight_history.h"
 #include "client/find/wall_index.h"
 #include "client/find/wall_observer.h"
 
@@ -17,16 +17,17 @@ namespace milepost {
 
 enum class FindMethod {
   orientations,  // the paper's: wall orientations by bearing, Eqs. 2 to 4
-  ranges,        // ours (decision 22): how far away what is seen stands
+  combined,      // ours (decision 22): these, and how far away what is seen stands
 };
 
 struct FilterSettings {
-  FindMethod method = FindMethod::ranges;
+  FindMethod method = FindMethod::combined;
   std::size_t particles = 2000;
   std::uint64_t seed = 1;
   std::optional<StartBelief> start;  // none: anywhere in the area
   double view_reach_m = 60;          // walls farther away are not seen
   WatchSettings watch;
+  HistorySettings history;
 };
 
 // The answer for one frame.
@@ -49,18 +50,13 @@ class WallFilter {
   const ParticleCloud& particles() const { return cloud_; }
 
  private:
-  struct Weighing {
-    double evidence = 0;  // the part of what the beams say that counts
-    RangeSettings ranges;
-  };
-
+  void weigh(ParticleCloud& cloud, const WallObservation& observation, double way_m) const;
+  double weigh_by_history(ParticleCloud& cloud) const;
   void start_from(const WallObservation& observation);
-  void weigh(ParticleCloud& cloud, const WallObservation& observation,
-             const Weighing& weighing) const;
   std::optional<double> explained_by(const PlanPose& pose,
                                      const WallObservation& observation) const;
-  double challenged_per_s() const;
-  void challenge(const WallObservation& observation, double duration_s);
+  bool is_challenged() const;
+  void challenge(const WallObservation& observation);
   void resample();
 
   const WallIndex& walls_;
@@ -69,9 +65,9 @@ class WallFilter {
   Random random_;
   ParticleCloud cloud_;
   ModeWatch watch_;
+  SightHistory history_;
   bool is_started_ = false;  // from a first observation
   double way_m_ = 0;         // since beams were weighed
-  double duration_s_ = 0;    // since the belief was challenged
 };
 
 }  // namespace milepost

@@ -102,11 +102,27 @@ TEST(ParticleCloud, ThoseThatCrossAWallOrLeaveAreDrawnAnew) {
 
 TEST(ParticleCloud, WeighingMultipliesAndNormalizes) {
   ParticleCloud cloud = {{{{0, 0}, 0}, 0.5}, {{{1, 0}, 0}, 0.25}, {{{2, 0}, 0}, 0.25}};
-  weigh_cloud(cloud, {-1000, -1000 + std::log(2), -1000});
+  const double log_likelihood = weigh_cloud(cloud, {-1000, -1000 + std::log(2), -1000});
+  EXPECT_NEAR(log_likelihood, -1000 + std::log(1.25), 1e-9);
   EXPECT_NEAR(cloud[0].weight, 0.4, 1e-12);
   EXPECT_NEAR(cloud[1].weight, 0.4, 1e-12);
   EXPECT_NEAR(cloud[2].weight, 0.2, 1e-12);
   EXPECT_NEAR(effective_count(cloud), 1 / (0.16 + 0.16 + 0.04), 1e-9);
+}
+
+TEST(ParticleCloud, ScatteringMovesEachByItsOwnNoise) {
+  Random random(3);
+  ParticleCloud cloud(2000, {{{5, -3}, 1}, 1.0 / 2000});
+  scatter_cloud(cloud, 2, 0.1, random);
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  double turns = 0;
+  for (const Particle& particle : cloud) {
+    squares += (particle.pose.enu_m - Eigen::Vector2d(5, -3)).cwiseAbs2() / 2000;
+    turns += std::pow(particle.pose.heading_rad - 1, 2) / 2000;
+  }
+  EXPECT_NEAR(std::sqrt(squares.x()), 2, 0.1);
+  EXPECT_NEAR(std::sqrt(squares.y()), 2, 0.1);
+  EXPECT_NEAR(std::sqrt(turns), 0.1, 0.005);
 }
 
 // By low variance: each particle comes as often as its weight says, one more or less.

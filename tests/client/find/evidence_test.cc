@@ -1,0 +1,61 @@
+#include "client/find/evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/client/find/plan_rooms.h"
+
+namespace milepost {
+namespace {
+
+// Ahead of a camera that looks north, a wall 10 m away, from west to east.
+class EvidenceTest : public ::testing::Test {
+ protected:
+  double evidence(const PlanPose& pose) const {
+    return evidence_per_m(pose, observation_, walls_, settings_);
+  }
+
+  WallIndex walls_{{{{-30, 10}, {30, 10}, 0.1}}};
+  PlanPose pose_{{0, 0}, 0};
+  WallObservation observation_{{{{-0.2, 0.2}, {std::numbers::pi / 2}}},
+                               {{0.1, 10 / std::cos(0.1), 0.1}}};
+  EvidenceSettings settings_;
+};
+
+TEST_F(EvidenceTest, NothingSeenSaysNothing) {
+  observation_ = {};
+  EXPECT_EQ(evidence(pose_), 0);
+}
+
+TEST_F(EvidenceTest, BothWaysOfSeeingCount) {
+  const double of_both = evidence(pose_);
+  const double nearer = evidence({{0, 4}, 0});  // the wall is turned rightly, but too near
+  EXPECT_LT(nearer, of_both - 0.02);
+  const WallObservation whole = observation_;
+  observation_.sections.front().orientations_rad = {0.8};  // ... and here the other way round
+  EXPECT_LT(evidence(pose_), of_both - 0.5);
+  observation_ = whole;
+  observation_.sections.clear();
+  EXPECT_NEAR(evidence(pose_), 0, 1e-3);
+  EXPECT_LT(evidence({{0, 4}, 0}), -0.02);
+}
+
+// Among trees every pose explains as little: none is to blame beyond some point.
+TEST_F(EvidenceTest, AFrameThatShowsNoWallsIsNoProofAgainstAPose) {
+  observation_.sections.clear();
+  observation_.beams.assign(20, {0.1, 2, 0.1});
+  EXPECT_NEAR(evidence(pose_), settings_.per_beam * settings_.least_per_beam * 20, 1e-9);
+}
+
+TEST_F(EvidenceTest, GrowsWithTheBeams) {
+  observation_.sections.clear();
+  observation_.beams.front().range_m = 8.5;
+  const double of_one = evidence(pose_);
+  observation_.beams.assign(3, observation_.beams.front());
+  EXPECT_NEAR(evidence(pose_), 3 * of_one, 1e-9);
+}
+
+}  // namespace
+}  // namespace milepost
