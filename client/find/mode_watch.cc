@@ -1,6 +1,6 @@
 #include "client/find/mode_watch.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace milepost {
 namespace {
@@ -40,7 +40,10 @@ FindStatus ModeWatch::observe(const BeliefMode& mode, std::optional<double> expl
   const double least_explained = found_ ? settings_.kept_explained : settings_.found_explained;
   const bool holds = stays && mode.mass >= least_mass && lately_ >= least_explained;
   way_m_ = holds ? way_m_ + std::abs(motion.distance_m) : 0;
-  found_ = holds && (found_ || way_m_ >= settings_.found_way_m);
+  turn_rad_ = holds ? turn_rad_ + motion.turn_rad : 0;
+  has_bend_ = holds && (has_bend_ || std::abs(turn_rad_) >= settings_.found_bend_rad);
+  found_ = holds &&
+           (found_ || way_m_ >= (has_bend_ ? settings_.found_way_m : settings_.found_straight_m));
   was_found_ = was_found_ || found_;
   if (!found_) return was_found_ ? FindStatus::lost : FindStatus::initializing;
   return explained ? FindStatus::tracking : FindStatus::predicted;

@@ -19,10 +19,12 @@ enum class FindStatus {
 const char* name_of(FindStatus status);
 
 struct WatchSettings {
-  double found_mass = 0.9;        // of the mode, to be found
-  double found_explained = 0.35;  // of what is seen, lately
-  double found_way_m = 30;        // so far both must hold, in one place
-  double kept_mass = 0.5;         // to stay found
+  double found_mass = 0.9;       // of the mode, to be found
+  double found_explained = 0.5;  // of what is seen, lately
+  double found_way_m = 40;       // so far both must hold, in one place, with a bend on the way
+  double found_bend_rad = 0.8;   // so much of a turn
+  double found_straight_m = 80;  // ... or so far without: one straight street looks like another
+  double kept_mass = 0.5;        // to stay found
   double kept_explained = 0.2;
   double place_m = 5;  // a mode that jumps farther is another place
 };
@@ -46,7 +48,9 @@ class ModeWatch {
  private:
   WatchSettings settings_;
   std::optional<PlanPose> place_;
-  double way_m_ = 0;
+  double way_m_ = 0;  // over which the mode holds, and what it turned on it
+  double turn_rad_ = 0;
+  bool has_bend_ = false;
   double lately_ = 0;
   double usually_ = 0;
   bool found_ = false;

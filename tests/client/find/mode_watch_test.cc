@@ -29,9 +29,28 @@ class ModeWatchTest : public ::testing::Test {
 };
 
 TEST_F(ModeWatchTest, OnePlaceThatExplainsWhatIsSeenForSomeWayIsFound) {
-  EXPECT_EQ(steps(15, 0.95, 0.8), FindStatus::initializing);
+  EXPECT_EQ(steps(40, 0.95, 0.8), FindStatus::initializing);
   EXPECT_EQ(steps(12, 0.95, 0.8), FindStatus::tracking);
   EXPECT_TRUE(watch_.is_found());
+}
+
+// One straight street looks like another; a bend tells them apart.
+TEST_F(ModeWatchTest, LessWayIsNeededRoundABend) {
+  const auto steps_until_found = [](double turn_rad) {
+    ModeWatch watch{WatchSettings{}};
+    PlanPose pose;
+    int count = 0;
+    while (!watch.is_found() && count < 100) {
+      const WheelMotion motion{0.2, 2, ++count == 15 ? turn_rad : 0};
+      pose = moved(pose, motion.distance_m, motion.turn_rad);
+      watch.observe({pose, 0.95, 0.3, 0.01}, 0.8, motion);
+    }
+    return count;
+  };
+  EXPECT_LT(steps_until_found(1), 32);
+  EXPECT_EQ(steps_until_found(-1), steps_until_found(1));
+  EXPECT_GT(steps_until_found(0.5), 45);
+  EXPECT_EQ(steps_until_found(0), steps_until_found(0.5));
 }
 
 TEST_F(ModeWatchTest, AHalfOfTheBeliefIsNotEnough) {
@@ -57,20 +76,20 @@ TEST_F(ModeWatchTest, StandingStillFindsNothing) {
 }
 
 TEST_F(ModeWatchTest, FramesThatTellNothingArePredicted) {
-  steps(30, 0.95, 0.8);
+  steps(60, 0.95, 0.8);
   EXPECT_EQ(step(0.95, std::nullopt), FindStatus::predicted);
   EXPECT_EQ(step(0.95, 0.8), FindStatus::tracking);
 }
 
 TEST_F(ModeWatchTest, WhatWasFoundIsLostByAJumpAndFoundAgain) {
-  steps(30, 0.95, 0.8);
+  steps(60, 0.95, 0.8);
   jump_east_m_ = 40;
   EXPECT_EQ(step(0.95, 0.8), FindStatus::lost);
-  EXPECT_EQ(steps(20, 0.95, 0.8), FindStatus::tracking);
+  EXPECT_EQ(steps(45, 0.95, 0.8), FindStatus::tracking);
 }
 
 TEST_F(ModeWatchTest, LessIsNeededToStayThanToBeFound) {
-  steps(30, 0.95, 0.8);
+  steps(60, 0.95, 0.8);
   EXPECT_EQ(steps(20, 0.6, 0.3), FindStatus::tracking);
   EXPECT_EQ(step(0.4, 0.3), FindStatus::lost);
   EXPECT_EQ(steps(20, 0.6, 0.8), FindStatus::lost);
