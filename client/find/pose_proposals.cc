@@ -11,6 +11,7 @@ namespace {
 constexpr double kHeadingSigmaRad = 3 * kRadPerDeg;
 constexpr double kAgreesRad = 1 * kRadPerDeg;
 constexpr int kMaxTurns = 4;
+constexpr int kBeams = 2;
 
 template <class Value>
 const Value& any_of(std::span<const Value> values, Random& random) {
@@ -18,11 +19,9 @@ const Value& any_of(std::span<const Value> values, Random& random) {
   return values[index(random)];
 }
 
-}  // namespace
-
-PlanPose oriented_pose(std::span<const ViewSection> sections, const WallIndex& walls,
-                       const PlanBox& area, double reach_m, Random& random) {
-  PlanPose pose = uniform_pose(area, random);
+// Turned so that a wall in view has an orientation that is seen.
+PlanPose turned_to_walls(PlanPose pose, std::span<const ViewSection> sections,
+                         const WallIndex& walls, double reach_m, Random& random) {
   const ViewSection& section = any_of(sections, random);
   const double observed_rad = any_of(std::span<const double>(section.orientations_rad), random);
   // Having turned, it may look at another wall.
@@ -39,12 +38,42 @@ PlanPose oriented_pose(std::span<const ViewSection> sections, const WallIndex& w
   return pose;
 }
 
-ParticleCloud oriented_cloud(std::size_t count, std::span<const ViewSection> sections,
+// Moved at right angles to the wall at which a beam ends, until it ends there.
+PlanPose moved_to_fit(const PlanPose& pose, const Beam& beam, const WallIndex& walls,
+                      const PlanBox& area, double reach_m) {
+  const Eigen::Vector2d direction = direction_of(pose.heading_rad + beam.bearing_rad);
+  const auto hit = walls.first_hit(pose.enu_m, direction, reach_m);
+  if (!hit) return pose;
+  const PlanWall& wall = walls.walls()[hit->wall];
+  const Eigen::Vector2d along = (wall.end_m - wall.begin_m).normalized();
+  const Eigen::Vector2d normal(along.y(), -along.x());
+  PlanPose fitting = pose;
+  fitting.enu_m += (hit->range_m - beam.range_m) * direction.dot(normal) * normal;
+  const bool is_possible =
+      area.contains(fitting.enu_m) && !walls.is_crossed(pose.enu_m, fitting.enu_m);
+  return is_possible ? fitting : pose;
+}
+
+}  // namespace
+
+PlanPose proposed_pose(const WallObservation& observation, const WallIndex& walls,
+                       const PlanBox& area, double reach_m, Random& random) {
+  PlanPose pose =
+      turned_to_walls(uniform_pose(area, random), observation.sections, walls, reach_m, random);
+  if (observation.beams.empty()) return pose;
+  for (int i = 0; i < kBeams; ++i) {
+    const Beam& beam = any_of(std::span<const Beam>(observation.beams), random);
+    pose = moved_to_fit(pose, beam, walls, area, reach_m);
+  }
+  return pose;
+}
+
+ParticleCloud proposed_cloud(std::size_t count, const WallObservation& observation,
                              const WallIndex& walls, const PlanBox& area, double reach_m,
                              Random& random) {
   ParticleCloud cloud(count);
   for (Particle& particle : cloud) {
-    particle = {oriented_pose(sections, walls, area, reach_m, random),
+    particle = {proposed_pose(observation, walls, area, reach_m, random),
                 1.0 / static_cast<double>(count)};
   }
   return cloud;

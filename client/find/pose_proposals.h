@@ -3,21 +3,22 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
 #include "client/find/particle_cloud.h"
-#include "client/find/wall_sightings.h"
+#include "client/find/wall_observer.h"
 
 namespace milepost {
 
 // A place anywhere in the area, turned so that the wall that it looks at has an orientation that is
-// seen there: of all headings only about as many are left as walls have orientations. Any heading
-// where it looks at no wall. REQUIRES: sections are not empty.
-PlanPose oriented_pose(std::span<const ViewSection> sections, const WallIndex& walls,
+// seen there: of all headings only about as many are left as walls have orientations. Then it is
+// moved towards or away from walls until two of the beams end at them: of the places across a
+// street one is left. Any heading where it looks at no wall; not moved where there are no beams.
+// REQUIRES: the observation's sections are not empty.
+PlanPose proposed_pose(const WallObservation& observation, const WallIndex& walls,
                        const PlanBox& area, double reach_m, Random& random);
 
 // Of equal weight.
-ParticleCloud oriented_cloud(std::size_t count, std::span<const ViewSection> sections,
+ParticleCloud proposed_cloud(std::size_t count, const WallObservation& observation,
                              const WallIndex& walls, const PlanBox& area, double reach_m,
                              Random& random);
 

@@ -118,8 +118,8 @@ double WallFilter::weigh_by_history(ParticleCloud& cloud) const {
 }
 
 void WallFilter::start_from(const WallObservation& observation) {
-  cloud_ = oriented_cloud(kStartCandidates * settings_.particles, observation.sections, walls_,
-                          area_, settings_.view_reach_m, random_);
+  cloud_ = proposed_cloud(kStartCandidates * settings_.particles, observation, walls_, area_,
+                          settings_.view_reach_m, random_);
   weigh(cloud_, observation, kCandidateWayM);
   is_started_ = true;
 }
@@ -144,8 +144,8 @@ bool WallFilter::is_challenged() const {
 // belief that they earn by explaining the way behind.
 void WallFilter::challenge(const WallObservation& observation) {
   const std::size_t count = std::max<std::size_t>(1, settings_.particles / kParticlesPerChallenger);
-  ParticleCloud challengers = oriented_cloud(kChallengerCandidates * count, observation.sections,
-                                             walls_, area_, settings_.view_reach_m, random_);
+  ParticleCloud challengers = proposed_cloud(kChallengerCandidates * count, observation, walls_,
+                                             area_, settings_.view_reach_m, random_);
   weigh(challengers, observation, kCandidateWayM);
   challengers = resampled(challengers, count, random_);
   weigh_by_history(challengers);
