@@ -60,9 +60,9 @@ TEST(PagePicture, IsThePartThatIsShownAtFullResolution) {
   Backdrop backdrop{cv::Mat(1000, 2000, CV_8UC3, cv::Scalar(0, 0, 0)),
                     {1e-5, 0, 0, -1e-5, 8.400005, 48.999995}};
   backdrop.bgr(cv::Rect(1500, 600, 100, 50)).setTo(cv::Scalar(200, 200, 200));
-  // Half a pixel within the light part on each side.
+  // Less than a pixel within the light part on each side.
   const std::optional<PagePicture> page =
-      page_picture(backdrop, {8.415005, 48.993505, 8.415995, 48.993995});
+      page_picture(backdrop, {8.4150025, 48.9935075, 8.4159975, 48.9939975});
   ASSERT_TRUE(page);
   EXPECT_NEAR(page->top_left.longitude_deg, 8.415, 1e-9);
   EXPECT_NEAR(page->top_left.latitude_deg, 48.994, 1e-9);

@@ -58,6 +58,24 @@ TEST(PlanAreas, TheWholeOneHoldsWallsAndPathInOneShape) {
   EXPECT_NEAR(height_share(area), 0.8, 1e-9);
 }
 
+TEST(PlanAreas, TheWholeOneHoldsAPathBeyondTheWalls) {
+  FoundRun run(20, 5);
+  run.drive.frames[3].position = LocalFrame(run.recorder.origin()).geo_from_enu({400, 0, 0});
+  const FindReportInput input = run.input();
+  const FoundSeries series = found_series(input);
+  EXPECT_TRUE(whole_area(series).contains(series.recorded[3]));
+  EXPECT_TRUE(path_area(series).contains(series.recorded[3]));
+}
+
+TEST(PlanAreas, WhereNoPathIsKnownItsAreaIsTheWhole) {
+  FoundRun run(5, 5);
+  for (Frame& frame : run.drive.frames) frame.position.latitude_deg = std::nan("");
+  const FindReportInput input = run.input();
+  const FoundSeries series = found_series(input);
+  EXPECT_EQ(path_area(series).east.from, whole_area(series).east.from);
+  EXPECT_EQ(path_area(series).north.to, whole_area(series).north.to);
+}
+
 TEST(PlanAreas, ThePathsOneIsLessThanTheWholeAndHoldsWhatWasTracked) {
   FoundRun run(20, 5);
   const LocalFrame frame(run.recorder.origin());
@@ -99,7 +117,8 @@ TEST_F(CloseUp, NeverHidesThatTheVehicleWasElsewhere) {
 }
 
 TEST(PlanAreas, TheShownBoundsHoldEveryPlan) {
-  const FoundRun run(20, 0);
+  FoundRun run(20, 0);
+  run.found[8].fix.position = LocalFrame(run.recorder.origin()).geo_from_enu({-300, 0, 0});
   const FindReportInput input = run.input();
   const FoundSeries series = found_series(input);
   const Bounds shown = shown_bounds(series);

@@ -8,7 +8,6 @@
 #include <limits>
 #include <regex>
 
-#include "client/cli/find_errors.h"
 #include "schema/base/file.h"
 #include "tests/client/cli/found_run.h"
 #include "tests/support/temp_folder.h"
@@ -39,48 +38,6 @@ std::size_t count_of(const std::string& text, const std::string& part) {
     ++count;
   }
   return count;
-}
-
-std::vector<std::size_t> frames_of(const std::vector<FindSnapshot>& snapshots) {
-  std::vector<std::size_t> frames;
-  for (const FindSnapshot& snapshot : snapshots) frames.push_back(snapshot.frame);
-  return frames;
-}
-
-TEST(FindSummary, CountsFromTheFirstTrackedFrame) {
-  const FoundRun run(40, 10);
-  const FindSummary summary = find_summary(run.found, find_errors(run.drive, run.found));
-  EXPECT_EQ(summary.frames, 40U);
-  EXPECT_EQ(summary.tracked_frames, 30U);
-  EXPECT_EQ(summary.found_frame, 10U);
-  EXPECT_NEAR(summary.found_after_s, 1, 1e-9);
-  EXPECT_NEAR(summary.position_m.mean, 2, 0.001);
-  EXPECT_NEAR(summary.position_m.max, 2, 0.001);
-  EXPECT_NEAR(summary.heading_deg.p50, 3, 1e-9);
-  EXPECT_EQ(summary.position_m.within_2_sigma, 0);
-  EXPECT_EQ(summary.heading_deg.within_2_sigma, 1);
-  EXPECT_NEAR(summary.latency_ms_p50, 29.5, 1e-9);
-}
-
-TEST(FindSummary, HeadingsAreComparedAcrossNorth) {
-  FoundRun run(2, 0);
-  run.drive.frames[1].heading_deg = 359;
-  EXPECT_NEAR(find_errors(run.drive, run.found)[1].heading_deg, 4, 1e-9);
-}
-
-TEST(FindRecorder, ShowsStartSearchFindingAndEnd) {
-  const FoundRun run(200, 100);
-  const auto frames = frames_of(run.recorder.chosen(6));
-  ASSERT_EQ(frames.size(), 6U);
-  EXPECT_EQ(frames[0], 0U);
-  EXPECT_NEAR(static_cast<double>(frames[1]), 50, 4);
-  EXPECT_EQ(frames[2], 100U);
-  EXPECT_NEAR(static_cast<double>(frames[3]), 133, 4);
-  EXPECT_EQ(frames[5], 199U);
-}
-
-TEST(FindRecorder, OneFrameIsOneSnapshot) {
-  EXPECT_EQ(frames_of(FoundRun(1, 0).recorder.chosen(6)), std::vector<std::size_t>{0});
 }
 
 TEST(FindReport, TellsTheFigures) {

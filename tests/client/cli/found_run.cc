@@ -24,14 +24,18 @@ FindFix made_up_fix(const Frame& truth, FindStatus status) {
 
 }  // namespace
 
-FoundRun::FoundRun(std::size_t frames, std::size_t found_from) : drive(straight_drive(frames)) {
+Finder idle_finder(std::size_t particles) {
   FinderSettings settings;
-  settings.particles = 200;
+  settings.particles = particles;
   Finder finder(kYard, {300, 300, 32, 24}, settings);
-  const cv::Mat black = cv::Mat::zeros(48, 64, CV_8UC1);
+  finder.find(cv::Mat::zeros(48, 64, CV_8UC1), 0);
+  return finder;
+}
+
+FoundRun::FoundRun(std::size_t frames, std::size_t found_from) : drive(straight_drive(frames)) {
+  const Finder finder = idle_finder(200);
   for (std::size_t i = 0; i < frames; ++i) {
     const Frame& frame = drive.frames[i];
-    finder.find(black, frame.timestamp_s);
     const FindStatus status = i < found_from ? FindStatus::initializing : FindStatus::tracking;
     found.push_back({frame.filename, made_up_fix(frame, status), 10 + static_cast<double>(i)});
     recorder.observe(i, status, finder);

@@ -6,6 +6,9 @@
 
 namespace milepost::testing {
 
+// A finder in a yard of 146 by 222 m that has seen a black frame.
+Finder idle_finder(std::size_t particles);
+
 // Frames as of straight_drive(), tracked from frame `found_from` on; each fix lies 2 m north of the
 // truth and looks 3 degrees too far clockwise, with sigmas of 0.9 m and 2 degrees.
 struct FoundRun {
