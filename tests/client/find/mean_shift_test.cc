@@ -59,5 +59,24 @@ TEST(MeanShift, ClimbsToTheMiddle) {
   EXPECT_NEAR(mode.pose.enu_m.x(), 10, 0.15);
 }
 
+// The heaviest bin is the lighter place's, which lies in the middle of it.
+TEST(MeanShift, APlaceOnTheCornerOfBinsIsNotOverlooked) {
+  Random random(1);
+  ParticleCloud cloud;
+  add_cluster(cloud, {{102.5, 22.5}, 1.05}, 0.4, random);
+  add_cluster(cloud, {{10, 10}, 0.7}, 0.6, random);
+  EXPECT_NEAR(densest_mode(cloud, {5, 0.35}).mass, 0.6, 0.01);
+}
+
+TEST(MeanShift, ClimbsFromTheEdgeOfItsBin) {
+  Random random(1);
+  ParticleCloud cloud;
+  add_cluster(cloud, {{1, 1}, 0.35}, 1, random);
+  cloud.push_back({{{4.9, 4.9}, 0.35}, 0.002});  // the heaviest one
+  const BeliefMode mode = densest_mode(cloud, {4, 0.35});
+  EXPECT_GT(mode.mass, 0.99);
+  EXPECT_NEAR(mode.pose.enu_m.x(), 1, 0.1);
+}
+
 }  // namespace
 }  // namespace milepost
