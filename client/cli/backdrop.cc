@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMostPixels = 1600;  // of width or height
 constexpr int kJpegQuality = 82;
+constexpr double kColourLeft = 0.2;
 constexpr const char* kWarpMend =
     "make the picture by gdalwarp -t_srs EPSG:4326, then gdal_translate -of JPEG -co WORLDFILE=YES";
 
@@ -88,15 +89,29 @@ Result<cv::Mat> read_colour(const fs::path& image) {
                "give a PNG or JPEG"};
 }
 
-Bytes small_jpeg(const cv::Mat& image) {
+cv::Mat scaled_down(const cv::Mat& image) {
   const double scale =
       std::min(1.0, static_cast<double>(kMostPixels) / std::max(image.cols, image.rows));
   const cv::Size size(std::max(1, static_cast<int>(std::lround(image.cols * scale))),
                       std::max(1, static_cast<int>(std::lround(image.rows * scale))));
   cv::Mat small;
   cv::resize(image, small, size, 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+// With most of its colour taken away.
+cv::Mat muted(const cv::Mat& bgr) {
+  cv::Mat gray;
+  cv::cvtColor(bgr, gray, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(gray, gray, cv::COLOR_GRAY2BGR);
+  cv::Mat mixed;
+  cv::addWeighted(bgr, kColourLeft, gray, 1 - kColourLeft, 0, mixed);
+  return mixed;
+}
+
+Bytes jpeg_of(const cv::Mat& image) {
   Bytes jpeg;
-  cv::imencode(".jpg", small, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
   return jpeg;
 }
 
@@ -171,8 +186,8 @@ std::optional<PagePicture> page_picture(const Backdrop& backdrop, const Bounds& 
   const cv::Rect part = part_around(backdrop, shown);
   if (part.empty()) return std::nullopt;
   const Corners corners(backdrop.world, part);
-  return PagePicture{small_jpeg(backdrop.bgr(part)), corners.top_left, corners.top_right,
-                     corners.bottom_left};
+  return PagePicture{jpeg_of(muted(scaled_down(backdrop.bgr(part)))), corners.top_left,
+                     corners.top_right, corners.bottom_left};
 }
 
 }  // namespace milepost

@@ -50,8 +50,9 @@ struct PagePicture {
   GeoPoint top_left, top_right, bottom_left;
 };
 
-// Of the picture the part around the box, scaled down to a size that fits a page; none where the
-// box lies outside. REQUIRES: the box does not cross longitude 180.
+// Of the picture the part around the box, scaled down to a size that fits a page and nearly grey,
+// so that what is drawn over it stands out by its colour; none where the box lies outside.
+// REQUIRES: the box does not cross longitude 180.
 std::optional<PagePicture> page_picture(const Backdrop& backdrop, const Bounds& shown);
 
 }  // namespace milepost

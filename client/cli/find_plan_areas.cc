@@ -42,7 +42,6 @@ PlanArea path_area(const FoundSeries& series) {
 }
 
 std::optional<PlanArea> close_up_area(const FoundSeries& series, const FindSnapshot& snapshot) {
-  if (!is_tracked((*series.input->frames)[snapshot.frame].fix.status)) return std::nullopt;
   PlanArea area;
   area.include({series.found[snapshot.frame]});
   area = of_even_shape(area, kCloseUpM);

@@ -10,8 +10,8 @@ namespace milepost {
 PlanArea whole_area(const FoundSeries& series);
 // The recorded path and where the vehicle was tracked; the whole area where neither is known.
 PlanArea path_area(const FoundSeries& series);
-// A street's width and some more about the place of a frame at which the vehicle was tracked;
-// nothing where it would leave out a tenth of the particles, or the recorded position.
+// A street's width and some more about the densest place of a frame; nothing where it would leave
+// out a tenth of the particles, or the recorded position.
 std::optional<PlanArea> close_up_area(const FoundSeries& series, const FindSnapshot& snapshot);
 // Whatever one of these shows.
 Bounds shown_bounds(const FoundSeries& series);

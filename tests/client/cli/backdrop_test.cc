@@ -77,6 +77,15 @@ TEST(PagePicture, IsThePartThatIsShownAtFullResolution) {
   EXPECT_GT(darkest, 190);
 }
 
+TEST(PagePicture, IsNearlyGrey) {
+  const Backdrop red{cv::Mat(16, 16, CV_8UC3, cv::Scalar(0, 0, 200)), {1e-5, 0, 0, -1e-5, 8.4, 49}};
+  const std::optional<PagePicture> page = page_picture(red, red.bounds());
+  ASSERT_TRUE(page);
+  const cv::Vec3b pixel = cv::imdecode(page->jpeg, cv::IMREAD_COLOR).at<cv::Vec3b>(8, 8);
+  EXPECT_NEAR(pixel[2] - pixel[0], 40, 8);  // a fifth of what it was
+  EXPECT_NEAR(pixel[0], 48, 8);             // four fifths of red's share of grey
+}
+
 TEST(PagePicture, ThereIsNoneOfABoxOutside) {
   const Backdrop backdrop{cv::Mat(10, 10, CV_8UC3, cv::Scalar(0, 0, 0)),
                           {1e-5, 0, 0, -1e-5, 8.4, 49}};
