@@ -17,11 +17,6 @@ double height_share(const PlanArea& area) { return area.north.length() / area.ea
 // Of a run in which nothing is found, with the particles of a snapshot at places of the test's own.
 class CloseUp : public ::testing::Test {
  protected:
-  CloseUp() {
-    input_ = run_.input();
-    series_ = found_series(input_);
-  }
-
   std::optional<PlanArea> with_particles_at(const plot::Point& place) const {
     return with_particles_at(place, 0, place);
   }
@@ -41,8 +36,8 @@ class CloseUp : public ::testing::Test {
 
   static constexpr std::size_t kFrame = 12;
   FoundRun run_{20, 20};
-  FindReportInput input_;
-  FoundSeries series_;
+  FindReportInput input_ = run_.input();
+  FoundSeries series_ = found_series(input_);
 };
 
 TEST(PlanAreas, TheWholeOneHoldsWallsAndPathInOneShape) {

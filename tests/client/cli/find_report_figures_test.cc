@@ -1,10 +1,10 @@
 // What the figures of a found drive's report draw.
+#include "client/cli/find_report_figures.h"
+
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <regex>
 
-#include "client/cli/find_report_figures.h"
 #include "tests/client/cli/found_run.h"
 
 namespace milepost {
@@ -12,7 +12,6 @@ namespace {
 
 using testing::FoundRun;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::size_t count_of(const std::string& text, const std::string& pattern) {
   const std::regex expression(pattern);
