@@ -68,14 +68,14 @@ TEST(MeanShift, APlaceOnTheCornerOfBinsIsNotOverlooked) {
   EXPECT_NEAR(densest_mode(cloud, {5, 0.35}).mass, 0.6, 0.01);
 }
 
+// The heaviest particle of the only bin sees a part of its place.
 TEST(MeanShift, ClimbsFromTheEdgeOfItsBin) {
   Random random(1);
-  ParticleCloud cloud;
-  add_cluster(cloud, {{1, 1}, 0.35}, 1, random);
-  cloud.push_back({{{4.9, 4.9}, 0.35}, 0.002});  // the heaviest one
+  ParticleCloud cloud = cloud_about({{{13, 13}, 0.35}, 0.2, 0.05}, 1000, random);
+  cloud.push_back({{{15.7, 15.7}, 0.35}, 0.002});
   const BeliefMode mode = densest_mode(cloud, {4, 0.35});
   EXPECT_GT(mode.mass, 0.99);
-  EXPECT_NEAR(mode.pose.enu_m.x(), 1, 0.1);
+  EXPECT_NEAR(mode.pose.enu_m.x(), 13, 0.1);
 }
 
 }  // namespace
