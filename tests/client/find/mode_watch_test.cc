@@ -77,7 +77,7 @@ TEST_F(ModeWatchTest, LessIsNeededToStayThanToBeFound) {
 }
 
 TEST_F(ModeWatchTest, OneFrameThatIsNotExplainedLosesNothing) {
-  steps(30, 0.95, 0.8);
+  steps(60, 0.95, 0.8);
   EXPECT_EQ(step(0.95, 0), FindStatus::tracking);
 }
 
