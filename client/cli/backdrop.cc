@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 
 constexpr int kMostPixels = 1600;  // of width or height
 constexpr int kJpegQuality = 82;
+constexpr double kColourLeft = 0.2;
 constexpr const char* kWarpMend =
-    "bring the picture into degrees by gdalwarp -t_srs EPSG:4326, then gdal_translate -co "
-    "WORLDFILE=YES";
+    "make the picture by gdalwarp -t_srs EPSG:4326, then gdal_translate -of JPEG -co WORLDFILE=YES";
 
 // .pgw of .png, .jgw of .jpg and .jpeg: the first and the last letter of the ending, and a w.
 std::string usual_ending(const fs::path& image) {
@@ -39,8 +39,7 @@ Result<fs::path> world_file_beside(const fs::path& image) {
     if (fs::exists(file)) return file;
   }
   return Error{ErrorCode::not_found, image.string(),
-               "no world file (.wld or " + usual + ") beside the image",
-               "make it by gdal_translate -co WORLDFILE=YES"};
+               "no world file (.wld or " + usual + ") beside the image", kWarpMend};
 }
 
 Result<double> number_of(const std::string& line, const std::string& place) {
@@ -90,29 +89,79 @@ Result<cv::Mat> read_colour(const fs::path& image) {
                "give a PNG or JPEG"};
 }
 
-Bytes small_jpeg(const cv::Mat& image) {
+cv::Mat scaled_down(const cv::Mat& image) {
   const double scale =
       std::min(1.0, static_cast<double>(kMostPixels) / std::max(image.cols, image.rows));
   const cv::Size size(std::max(1, static_cast<int>(std::lround(image.cols * scale))),
                       std::max(1, static_cast<int>(std::lround(image.rows * scale))));
   cv::Mat small;
   cv::resize(image, small, size, 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+// With most of its colour taken away.
+cv::Mat muted(const cv::Mat& bgr) {
+  cv::Mat gray;
+  cv::cvtColor(bgr, gray, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(gray, gray, cv::COLOR_GRAY2BGR);
+  cv::Mat mixed;
+  cv::addWeighted(bgr, kColourLeft, gray, 1 - kColourLeft, 0, mixed);
+  return mixed;
+}
+
+Bytes jpeg_of(const cv::Mat& image) {
   Bytes jpeg;
-  cv::imencode(".jpg", small, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  cv::imencode(".jpg", image, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
   return jpeg;
+}
+
+// Outer corners of a part of a picture. Places are counted from the centre of a pixel, so they lie
+// half a pixel outside the centres of the outermost.
+struct Corners {
+  Corners(const WorldFile& world, const cv::Rect& part)
+      : top_left(world.at({part.x - 0.5, part.y - 0.5})),
+        top_right(world.at({part.br().x - 0.5, part.y - 0.5})),
+        bottom_left(world.at({part.x - 0.5, part.br().y - 0.5})),
+        bottom_right(world.at({part.br().x - 0.5, part.br().y - 0.5})) {}
+
+  GeoPoint top_left, top_right, bottom_left, bottom_right;
+};
+
+// The pixels of a picture around a box; none where they do not meet.
+cv::Rect part_around(const Backdrop& backdrop, const Bounds& box) {
+  const std::array<cv::Point2d, 4> corners = {backdrop.world.pixel_of(box.south_deg, box.west_deg),
+                                              backdrop.world.pixel_of(box.south_deg, box.east_deg),
+                                              backdrop.world.pixel_of(box.north_deg, box.west_deg),
+                                              backdrop.world.pixel_of(box.north_deg, box.east_deg)};
+  const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x, corners[3].x});
+  const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y, corners[3].y});
+  // Clamped before they become whole numbers, which hold no box far away.
+  const auto pixel = [](double place, int pixels) {
+    return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(pixels)));
+  };
+  const int cols = backdrop.bgr.cols;
+  const int rows = backdrop.bgr.rows;
+  return {cv::Point(pixel(std::floor(left + 0.5), cols), pixel(std::floor(top + 0.5), rows)),
+          cv::Point(pixel(std::ceil(right + 0.5), cols), pixel(std::ceil(bottom + 0.5), rows))};
 }
 
 }  // namespace
 
+cv::Point2d WorldFile::pixel_of(double latitude_deg, double longitude_deg) const {
+  const double east_deg = longitude_deg - c;
+  const double north_deg = latitude_deg - f;
+  return {(e * east_deg - b * north_deg) / determinant(),
+          (a * north_deg - d * east_deg) / determinant()};
+}
+
 Bounds Backdrop::bounds() const {
-  const double bottom_right_latitude_deg =
-      top_right.latitude_deg + bottom_left.latitude_deg - top_left.latitude_deg;
-  const double bottom_right_longitude_deg =
-      top_right.longitude_deg + bottom_left.longitude_deg - top_left.longitude_deg;
-  const auto [south, north] = std::minmax({top_left.latitude_deg, top_right.latitude_deg,
-                                           bottom_left.latitude_deg, bottom_right_latitude_deg});
-  const auto [west, east] = std::minmax({top_left.longitude_deg, top_right.longitude_deg,
-                                         bottom_left.longitude_deg, bottom_right_longitude_deg});
+  const Corners corners(world, {0, 0, bgr.cols, bgr.rows});
+  const auto [south, north] =
+      std::minmax({corners.top_left.latitude_deg, corners.top_right.latitude_deg,
+                   corners.bottom_left.latitude_deg, corners.bottom_right.latitude_deg});
+  const auto [west, east] =
+      std::minmax({corners.top_left.longitude_deg, corners.top_right.longitude_deg,
+                   corners.bottom_left.longitude_deg, corners.bottom_right.longitude_deg});
   return {west, south, east, north};
 }
 
@@ -123,22 +172,22 @@ Result<Backdrop> read_backdrop(const fs::path& image) {
   if (!file) return file.error();
   const Result<WorldFile> world = read_world_file(*file);
   if (!world) return world.error();
-  if (world->a * world->e == world->b * world->d) {
+  if (world->determinant() == 0) {
     return Error{ErrorCode::invalid_input, file->string(),
                  "lines 1 to 4: a picture of that size covers nothing", kWarpMend};
   }
-  const double right = pixels->cols - 0.5;
-  const double bottom = pixels->rows - 0.5;
-  Backdrop backdrop;
-  backdrop.top_left = world->at(-0.5, -0.5);
-  backdrop.top_right = world->at(right, -0.5);
-  backdrop.bottom_left = world->at(-0.5, bottom);
-  if (!backdrop.bounds().is_valid()) {
-    return Error{ErrorCode::invalid_input, file->string(),
-                 "lines 5 and 6: the picture reaches beyond the Earth's degrees", kWarpMend};
-  }
-  backdrop.jpeg = small_jpeg(*pixels);
-  return backdrop;
+  Backdrop backdrop{*pixels, *world};
+  if (backdrop.bounds().is_valid()) return backdrop;
+  return Error{ErrorCode::invalid_input, file->string(),
+               "lines 5 and 6: the picture reaches beyond the Earth's degrees", kWarpMend};
+}
+
+std::optional<PagePicture> page_picture(const Backdrop& backdrop, const Bounds& shown) {
+  const cv::Rect part = part_around(backdrop, shown);
+  if (part.empty()) return std::nullopt;
+  const Corners corners(backdrop.world, part);
+  return PagePicture{jpeg_of(muted(scaled_down(backdrop.bgr(part)))), corners.top_left,
+                     corners.top_right, corners.bottom_left};
 }
 
 }  // namespace milepost

@@ -3,6 +3,9 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
+
+#include <opencv2/core.hpp>
 
 #include "schema/base/bytes.h"
 #include "schema/base/cell_grid.h"
@@ -18,15 +21,18 @@ struct WorldFile {
   double a = 0, d = 0, b = 0, e = 0, c = 0, f = 0;
 
   // Of a place in the picture, in pixels from the centre of its top left one; altitude 0.
-  GeoPoint at(double column, double row) const {
-    return {f + d * column + e * row, c + a * column + b * row, 0};
+  GeoPoint at(const cv::Point2d& pixel) const {
+    return {f + d * pixel.x + e * pixel.y, c + a * pixel.x + b * pixel.y, 0};
   }
+  // How much a pixel covers, in square degrees, with a sign; 0 for none.
+  double determinant() const { return a * e - b * d; }
+  // The inverse of at(). REQUIRES: the determinant is not 0.
+  cv::Point2d pixel_of(double latitude_deg, double longitude_deg) const;
 };
 
 struct Backdrop {
-  Bytes jpeg;  // scaled down to a size that fits a page
-  // The outer corners of the picture, altitude 0.
-  GeoPoint top_left, top_right, bottom_left;
+  cv::Mat bgr;  // 8 bits
+  WorldFile world;
 
   Bounds bounds() const;  // around all of it
 };
@@ -36,5 +42,17 @@ struct Backdrop {
 // Errors: not_found, io; invalid_input for an image that is cut short or cannot be decoded, a line
 // of the world file that is no number (named), or numbers that are no WGS84 degrees.
 Result<Backdrop> read_backdrop(const std::filesystem::path& image);
+
+// What a page shows of a picture.
+struct PagePicture {
+  Bytes jpeg;
+  // Its outer corners, altitude 0.
+  GeoPoint top_left, top_right, bottom_left;
+};
+
+// Of the picture the part around the box, scaled down to a size that fits a page and nearly grey,
+// so that what is drawn over it stands out by its colour; none where the box lies outside.
+// REQUIRES: the box does not cross longitude 180.
+std::optional<PagePicture> page_picture(const Backdrop& backdrop, const Bounds& shown);
 
 }  // namespace milepost

@@ -79,6 +79,7 @@ FindSummary find_summary(const std::vector<FoundFrame>& frames,
     const double heading_deg = std::abs(errors[i].heading_deg);
     if (std::isfinite(errors[i].position_m)) {
       positions.push_back({errors[i].position_m, fix.sigma_m});
+      if (errors[i].position_m > kWrongPlaceM) ++summary.wrong_frames;
     }
     if (std::isfinite(heading_deg)) headings.push_back({heading_deg, fix.heading_sigma_deg});
   }

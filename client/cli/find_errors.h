@@ -27,6 +27,9 @@ struct FindErrorFigures {
   double within_2_sigma = std::numeric_limits<double>::quiet_NaN();  // share, [0, 1]
 };
 
+// Farther off than that, a vehicle is taken to be in another street.
+inline constexpr double kWrongPlaceM = 10;
+
 struct FindSummary {
   std::size_t frames = 0;
   std::size_t tracked_frames = 0;
@@ -34,6 +37,7 @@ struct FindSummary {
   double found_after_s = 0;                // since the first frame; 0 where nothing was found
   FindErrorFigures position_m;             // of the tracked frames
   FindErrorFigures heading_deg;            // of the same
+  std::size_t wrong_frames = 0;            // of the same: more than kWrongPlaceM off
   double latency_ms_p50 = std::numeric_limits<double>::quiet_NaN();  // of all frames
   double latency_ms_p99 = std::numeric_limits<double>::quiet_NaN();
 };

@@ -14,21 +14,10 @@ using plot::number;
 
 constexpr std::size_t kMostSnapshots = 6;
 
-FoundSeries series_of(const FindReportInput& input) {
-  FoundSeries series;
-  series.input = &input;
-  series.snapshots = input.recorder->chosen(kMostSnapshots);
-  series.errors = find_errors(*input.drive, *input.frames);
-  series.summary = find_summary(*input.frames, series.errors);
-  const LocalFrame frame(input.recorder->origin());
-  const double start_s = input.frames->front().fix.timestamp_s;
-  for (std::size_t i = 0; i < input.frames->size(); ++i) {
-    const FindFix& fix = (*input.frames)[i].fix;
-    series.time_s.push_back(fix.timestamp_s - start_s);
-    series.recorded.push_back(on_plan(frame, input.drive->frames[i].position));
-    series.found.push_back(on_plan(frame, fix.position));
-  }
-  return series;
+std::string wrong_places(const FindSummary& summary) {
+  if (summary.wrong_frames == 0) return "";
+  return " In " + counted(summary.wrong_frames, "frame") +
+         " it was taken to be in a wrong place, more than " + number(kWrongPlaceM, 0) + " m off.";
 }
 
 std::string lead(const FindSummary& summary) {
@@ -41,7 +30,7 @@ std::string lead(const FindSummary& summary) {
   if (std::isnan(summary.position_m.p50)) return text;
   return text + " Half of these are within " + metres(summary.position_m.p50) +
          " of where the camera really was, 95\u00A0% within " + metres(summary.position_m.p95) +
-         "; the worst is off by " + metres(summary.position_m.max) + ".";
+         "; the worst is off by " + metres(summary.position_m.max) + "." + wrong_places(summary);
 }
 
 Facts facts_of(const FindReportInput& input, const FindSummary& summary) {
@@ -99,11 +88,28 @@ std::string snapshots_section(const FoundSeries& series) {
 
 }  // namespace
 
+FoundSeries found_series(const FindReportInput& input) {
+  FoundSeries series;
+  series.input = &input;
+  series.snapshots = input.recorder->chosen(kMostSnapshots);
+  series.errors = find_errors(*input.drive, *input.frames);
+  series.summary = find_summary(*input.frames, series.errors);
+  const LocalFrame frame(input.recorder->origin());
+  const double start_s = input.frames->front().fix.timestamp_s;
+  for (std::size_t i = 0; i < input.frames->size(); ++i) {
+    const FindFix& fix = (*input.frames)[i].fix;
+    series.time_s.push_back(fix.timestamp_s - start_s);
+    series.recorded.push_back(on_plan(frame, input.drive->frames[i].position));
+    series.found.push_back(on_plan(frame, fix.position));
+  }
+  return series;
+}
+
 std::string find_report_html(const FindReportInput& input) {
-  const FoundSeries series = series_of(input);
+  const FoundSeries series = found_series(input);
   return page(
       {"find", title_of(*input.drive), lead(series.summary), facts_of(input, series.summary)},
-      plan_ground(input) + summary_section(series.summary) + snapshots_section(series) +
+      plan_ground(series) + summary_section(series.summary) + snapshots_section(series) +
           html_of(path_figure(series)) + html_of(position_error_figure(series)) +
           html_of(heading_error_figure(series)) + html_of(belief_figure(series)));
 }

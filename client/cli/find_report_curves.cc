@@ -61,7 +61,7 @@ const FindStatusMark& mark_of(FindStatus status) {
 // Each stretch of frames with one status.
 void add_status_lane(Chart& chart, const FoundSeries& series) {
   const std::vector<FoundFrame>& frames = *series.input->frames;
-  chart.add_lane("lane");
+  chart.add_lane("");
   for (std::size_t first = 0; first < frames.size();) {
     const FindStatus status = frames[first].fix.status;
     std::size_t end = first;
@@ -98,18 +98,19 @@ std::vector<HoverStrip> hover_strips(const FoundSeries& series) {
   return strips;
 }
 
-std::string legend(const std::string& value, const std::string& other) {
-  return R"(<p class="legend"><span class="m0"><i></i>)" + value +
-         R"(</span> <span class="m1"><i></i>)" + other + "</span></p>\n";
+std::string key(const std::string& css_class, const std::string& words) {
+  return "<span class=\"" + css_class + "\"><i></i>" + words + "</span> ";
 }
 
+std::string legend(const std::string& keys) { return R"(<p class="legend">)" + keys + "</p>\n"; }
+
 std::string status_legend() {
-  std::string html = R"(<p class="legend">)";
+  std::string keys;
   for (const FindStatusMark& mark : kFindStatusMarks) {
-    html += std::string(R"(<span><svg width="18" height="8"><path class=")") + mark.lane_class +
+    keys += std::string(R"(<span><svg width="18" height="8"><path class=")") + mark.lane_class +
             R"(" d="M3 4H15"/></svg>)" + name_of(mark.status) + "</span> ";
   }
-  return html + "</p>\n";
+  return legend(keys);
 }
 
 void draw_found_line(Chart& chart, const FoundSeries& series, const Axis& y) {
@@ -131,13 +132,14 @@ struct ErrorCurve {
 Figure error_figure(const FoundSeries& series, const ErrorCurve& curve) {
   Figure figure;
   figure.heading = curve.heading;
-  figure.legend = legend("error", "2\u03C3 as reported") + status_legend();
+  figure.legend =
+      legend(key("m0", "error") + key("swatch", "up to 2\u03C3 as reported")) + status_legend();
   if (finite_only(curve.errors).empty()) return figure;
   std::vector<double> all = curve.errors;
   all.insert(all.end(), curve.two_sigmas.begin(), curve.two_sigmas.end());
   const Axis y = error_axis(curve.label, curve.least, all);
   Chart chart = Chart::of_height(time_axis(series), y, curve.height_px, curve.heading);
-  chart.line(points_of(series, curve.two_sigmas, y.from()), "m1 line");
+  chart.area(points_of(series, curve.two_sigmas, y.from()), "band");
   chart.line(points_of(series, curve.errors, y.from()), "m0 line chief");
   draw_found_line(chart, series, y);
   add_status_lane(chart, series);
@@ -155,8 +157,9 @@ Figure position_error_figure(const FoundSeries& series) {
   Figure figure = error_figure(series, curve);
   figure.caption =
       "Distance from the recorded position, on a logarithmic scale, so that both the search and "
-      "the tracking can be read. While nothing is found, \u03C3 is that of the whole belief. "
-      "The lane under the axis shows the status of each frame.";
+      "the tracking can be read. In the grey the error is within twice the reported \u03C3, which "
+      "is that of the whole belief while nothing is found. The lane under the axis shows the "
+      "status of each frame.";
   return figure;
 }
 
@@ -173,7 +176,8 @@ Figure heading_error_figure(const FoundSeries& series) {
 Figure belief_figure(const FoundSeries& series) {
   Figure figure;
   figure.heading = "What the belief rests on";
-  figure.legend = legend("mass of the densest place", "explained share") + status_legend();
+  figure.legend = legend(key("m0", "mass of the densest place") + key("m1", "explained share")) +
+                  status_legend();
   figure.caption =
       "Mass: the part of the belief that lies in the densest place. Explained: the share of what "
       "was seen lately that the walls there explain. A vehicle counts as found when both are high "

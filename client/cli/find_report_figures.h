@@ -22,8 +22,15 @@ struct FoundSeries {
   std::vector<plot::Point> found;     // the same
 };
 
-// In plan view (find_report_plans.cc). The element that all plans lie on, once in a document.
-std::string plan_ground(const FindReportInput& input);
+// The input must outlive it.
+FoundSeries found_series(const FindReportInput& input);
+
+// The id of the element that all plans lie on, and the element (find_report_ground.cc), once in a
+// document.
+inline constexpr const char* kPlanGround = "ground";
+std::string plan_ground(const FoundSeries& series);
+
+// In plan view (find_report_plans.cc).
 std::string plan_legend();
 // One a snapshot.
 std::vector<Figure> snapshot_figures(const FoundSeries& series);

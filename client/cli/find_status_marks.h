@@ -16,7 +16,7 @@ struct FindStatusMark {
 
 // In the order in which they are drawn, the first beneath.
 inline constexpr std::array<FindStatusMark, 4> kFindStatusMarks = {{
-    {FindStatus::initializing, "nofix", "s-initializing", 2.5},
+    {FindStatus::initializing, "nofix", "s-initializing", 2.0},
     {FindStatus::lost, "f-lost", "s-lost", 3.2},
     {FindStatus::predicted, "f-predicted", "s-predicted", 2.6},
     {FindStatus::tracking, "f-tracking", "s-tracking", 2.6},

@@ -1,23 +1,14 @@
 #include "client/cli/replay.h"
 
-#include <chrono>
 #include <optional>
 
+#include "client/cli/drive_playback.h"
 #include "schema/drive/frame_image.h"
 #include "schema/feature/extractor.h"
 #include "schema/feature/wisurf.h"
 
 namespace milepost {
 namespace {
-
-// Drives write receiver times to the millisecond and frame times finer.
-constexpr double kClockRoundingS = 0.001;
-
-using SteadyClock = std::chrono::steady_clock;
-
-double ms_since(SteadyClock::time_point start) {
-  return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
-}
 
 // A value made from a frame when a localizer first asks for it, and the time that took.
 template <class Value>
@@ -31,9 +22,9 @@ class MadeOnce {
   template <class Make>
   const Value& get(const Make& make, double& spared_ms) {
     if (!made_ms_) {
-      const auto start = SteadyClock::now();
+      const Stopwatch watch;
       value_ = make();
-      made_ms_ = ms_since(start);
+      made_ms_ = watch.ms();
     } else if (!charged_) {
       spared_ms += *made_ms_;
     }
@@ -93,34 +84,17 @@ struct Runner {
   bool had_fix = false;
 };
 
-// The receiver's and the wheels' readings of a drive, each told once its time has come.
-class SensorLog {
- public:
-  explicit SensorLog(const Drive& drive) : drive_(drive) {}
-
-  void tell_until(double timestamp_s, std::vector<Runner>& runners) {
-    for (;
-         gps_ < drive_.gps.size() && drive_.gps[gps_].timestamp_s <= timestamp_s + kClockRoundingS;
-         ++gps_) {
-      const GpsFix& gps = drive_.gps[gps_];
-      for (Runner& runner : runners)
-        runner.localizer.observe(CoarsePosition{gps.timestamp_s, gps.position, gps.sigma_m});
+// What the sensors said up to a time.
+void tell(SensorLog& sensors, double timestamp_s, std::vector<Runner>& runners) {
+  const std::span<const GpsFix> all_gps = sensors.gps_until(timestamp_s);
+  const std::span<const Odometry> all_odometry = sensors.odometry_until(timestamp_s);
+  for (Runner& runner : runners) {
+    for (const GpsFix& gps : all_gps) {
+      runner.localizer.observe(CoarsePosition{gps.timestamp_s, gps.position, gps.sigma_m});
     }
-    for (; odometry_ < drive_.odometry.size() &&
-           drive_.odometry[odometry_].timestamp_s <= timestamp_s;
-         ++odometry_) {
-      const OdometryReading& wheels = drive_.odometry[odometry_];
-      for (Runner& runner : runners)
-        runner.localizer.observe(
-            Odometry{wheels.timestamp_s, wheels.speed_mps, wheels.yaw_rate_dps});
-    }
+    for (const Odometry& odometry : all_odometry) runner.localizer.observe(odometry);
   }
-
- private:
-  const Drive& drive_;
-  std::size_t gps_ = 0;  // the next to tell
-  std::size_t odometry_ = 0;
-};
+}
 
 // One frame through one localizer. A source that fails after the first fix costs this frame only.
 Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, Runner& runner,
@@ -132,9 +106,9 @@ Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, Runner& ru
                            return content.features(parameters);
                          },
                          [&]() -> const ImageDescriptor& { return content.image(); }};
-  const auto start = SteadyClock::now();
+  const Stopwatch watch;
   Result<Fix> fix = runner.localizer.localize(query);
-  const double latency_ms = ms_since(start) + content.spared_ms();
+  const double latency_ms = watch.ms() + content.spared_ms();
   if (!fix) {
     if (!runner.had_fix) return fix.error();
     replay.outage = fix.error();
@@ -159,8 +133,7 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
                  "add the receiver's positions (timestamp_s,latitude_deg,longitude_deg,sigma_m)"};
   }
   std::vector<Runner> runners;
-  const QueryCamera camera{drive.camera.width_px, drive.camera.focal_x_px, drive.camera.focal_y_px,
-                           drive.camera.principal_x_px, drive.camera.principal_y_px};
+  const QueryCamera camera = query_camera_of(drive.camera);
   for (const Method& method : methods) {
     LocalizerSettings settings;
     settings.method = method;
@@ -182,7 +155,7 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
     Result<cv::Mat> gray = read_frame_gray(drive, i);
     if (!gray) return gray.error();
     content.set_frame(std::move(*gray));
-    sensors.tell_until(frame.timestamp_s, runners);
+    tell(sensors, frame.timestamp_s, runners);
     for (std::size_t m = 0; m < methods.size(); ++m) {
       Result<FrameFix> fix = run_frame(frame, content, runners[m], replay);
       if (!fix) return fix.error();

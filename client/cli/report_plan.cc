@@ -47,6 +47,10 @@ void PlanArea::include(const std::vector<Point>& points) {
 
 bool PlanArea::is_empty() const { return std::isnan(east.from) || std::isnan(north.from); }
 
+bool PlanArea::contains(const Point& point) const {
+  return east.contains(point.x) && north.contains(point.y);
+}
+
 Chart plan_chart(const PlanArea& area, const std::string& description) {
   const double step = plot::round_ticks(area.east.from, area.east.to, kMostTicks).step;
   return Chart::of_equal_units(same_step_axis("east (m)", area.east, step),
@@ -57,8 +61,10 @@ void draw_scale_bar(Chart& chart, const PlanArea& area) {
   const double length_m = plot::round_ticks(0, area.east.length(), 6).step;
   const double right = area.east.to - 0.03 * area.east.length();
   const double y = area.north.from + 0.07 * area.north.length();
-  chart.line({{right - length_m, y}, {right, y}}, "scale");
-  chart.word({right - length_m / 2, y}, 0, -6, "mid",
+  const std::vector<Point> bar = {{right - length_m, y}, {right, y}};
+  chart.line(bar, "casing");
+  chart.line(bar, "scale");
+  chart.word({right - length_m / 2, y}, 0, -7, "mid strong",
              plot::number(length_m, plot::round_ticks(0, length_m, 1).decimals) + " m");
 }
 

@@ -20,6 +20,7 @@ struct Extent {
 
   void include(double value);  // NaN changes nothing
   double length() const { return to - from; }
+  bool contains(double value) const { return from <= value && value <= to; }
   void widen_to(double length);  // about its middle
 };
 
@@ -29,13 +30,14 @@ struct PlanArea {
 
   void include(const std::vector<plot::Point>& points);
   bool is_empty() const;
+  bool contains(const plot::Point& point) const;  // borders included
 };
 
 // A chart of the area, in metres and to scale; both axes have ticks equally far apart.
 // REQUIRES: the area is not empty.
 plot::Chart plan_chart(const PlanArea& area, const std::string& description);
 
-// In the lower right corner.
+// In the lower right corner, legible on pictures too.
 void draw_scale_bar(plot::Chart& chart, const PlanArea& area);
 
 }  // namespace milepost

@@ -9,6 +9,7 @@
 #include "schema/command/command.h"
 #include "schema/drive/description.h"
 #include "schema/drive/frame_image.h"
+#include "schema/drive/pinhole.h"
 
 namespace milepost {
 namespace {
@@ -17,10 +18,6 @@ using Json = nlohmann::ordered_json;
 
 const std::map<std::string, VanishingMethod> kMethods = {
     {"clustering", VanishingMethod::clustering}, {"evidence", VanishingMethod::evidence}};
-
-Pinhole view_of(const Camera& camera) {
-  return {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px, camera.principal_y_px};
-}
 
 Json json_of(const VanishingDirection& found) {
   const Eigen::Vector3d& direction = found.direction;
@@ -57,7 +54,7 @@ Result<Json> found_in_all(const std::vector<std::string>& images, const Camera& 
                   std::to_string(images.size()));
     const Result<cv::Mat> gray = read_image_gray(image, camera);
     if (!gray) return gray.error();
-    entries.push_back(json_of(image, vanishing_directions(*gray, view_of(camera), settings)));
+    entries.push_back(json_of(image, vanishing_directions(*gray, pinhole_of(camera), settings)));
   }
   return entries;
 }

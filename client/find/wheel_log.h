@@ -4,14 +4,11 @@
 #include <optional>
 
 #include "client/find/plan_pose.h"
+#include "schema/geo/odometry.h"
 
 namespace milepost {
 
-struct WheelReading {
-  double timestamp_s = 0;
-  double speed_mps = 0;     // forwards
-  double yaw_rate_dps = 0;  // degrees a second, clockwise
-};
+using WheelReading = Odometry;
 
 // Adds up readings, each of which holds from its time to the next one's.
 class WheelLog {

@@ -11,6 +11,7 @@
 #include "client/fetch/prefetcher.h"
 #include "client/localize/method.h"
 #include "schema/feature/types.h"
+#include "schema/geo/odometry.h"
 #include "schema/geo/route_line.h"
 
 namespace milepost {
@@ -50,13 +51,6 @@ struct CoarsePosition {
   // Where it is known which way the vehicle looks, clockwise from north, within 30 degrees or so:
   // segments that lead elsewhere are no place to start.
   std::optional<double> heading_deg = {};
-};
-
-// What the wheels say of the vehicle's motion.
-struct Odometry {
-  double timestamp_s = 0;
-  double speed_mps = 0;     // forwards
-  double yaw_rate_dps = 0;  // degrees a second, clockwise
 };
 
 // One frame of the query camera. Its features are asked for once the map, and with it the

@@ -172,7 +172,7 @@ Status check_gps(const std::vector<GpsFix>& gps, const RowPlaces& rows) {
   return ok_status();
 }
 
-Status check_odometry(const std::vector<OdometryReading>& odometry, const RowPlaces& rows) {
+Status check_odometry(const std::vector<Odometry>& odometry, const RowPlaces& rows) {
   if (Status status = check_times(odometry, rows); !status) return status;
   for (std::size_t row = 0; row < odometry.size(); ++row) {
     if (!std::isfinite(odometry[row].speed_mps) || !std::isfinite(odometry[row].yaw_rate_dps)) {

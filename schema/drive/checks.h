@@ -24,6 +24,6 @@ Status check_images_folder(const std::string& images, const std::string& where);
 // REQUIRES: `rows` has one line a frame (a reading).
 Status check_frames(const std::vector<Frame>& frames, const RowPlaces& rows);
 Status check_gps(const std::vector<GpsFix>& gps, const RowPlaces& rows);
-Status check_odometry(const std::vector<OdometryReading>& odometry, const RowPlaces& rows);
+Status check_odometry(const std::vector<Odometry>& odometry, const RowPlaces& rows);
 
 }  // namespace milepost

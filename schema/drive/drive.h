@@ -8,6 +8,7 @@
 
 #include "schema/base/result.h"
 #include "schema/geo/geodesy.h"
+#include "schema/geo/odometry.h"
 
 namespace milepost {
 
@@ -36,12 +37,6 @@ struct GpsFix {
   double sigma_m = 0;
 };
 
-struct OdometryReading {
-  double timestamp_s = 0;
-  double speed_mps = 0;
-  double yaw_rate_dps = 0;  // clockwise
-};
-
 enum class PositionFrame { local, geographic };
 
 struct Drive {
@@ -54,9 +49,9 @@ struct Drive {
   std::string captured;
   std::string licence;
   std::string source;
-  std::vector<Frame> frames;              // timestamps ascend strictly
-  std::vector<GpsFix> gps;                // empty without gps.csv; timestamps ascend strictly
-  std::vector<OdometryReading> odometry;  // empty without odometry.csv; the same
+  std::vector<Frame> frames;       // timestamps ascend strictly
+  std::vector<GpsFix> gps;         // empty without gps.csv; timestamps ascend strictly
+  std::vector<Odometry> odometry;  // empty without odometry.csv; the same
 
   std::filesystem::path frame_path(const Frame& frame) const {
     return folder / images / frame.filename;

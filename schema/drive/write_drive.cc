@@ -88,7 +88,7 @@ std::string gps_text(const Drive& drive) {
 
 std::string odometry_text(const Drive& drive) {
   CsvText csv(kOdometryColumns);
-  for (const OdometryReading& reading : drive.odometry) {
+  for (const Odometry& reading : drive.odometry) {
     csv.exact(reading.timestamp_s);
     csv.fixed(reading.speed_mps, kRateDecimals);
     csv.fixed(reading.yaw_rate_dps, kRateDecimals);

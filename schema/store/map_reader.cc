@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "schema/base/digest.h"
+#include "schema/store/map_cells.h"
 #include "schema/store/map_content.h"
+#include "schema/store/map_rows.h"
 #include "schema/store/map_store.h"
+#include "schema/store/map_verification.h"
 #include "schema/store/sqlite.h"
 
 namespace milepost {
@@ -14,18 +18,7 @@ namespace {
 // A map comes from elsewhere: nothing in its schema may run code, and damaged cells are refused.
 constexpr const char* kSettings = "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
 
-enum Query {
-  kMeta,
-  kSegment,
-  kVertices,
-  kSuccessors,
-  kTileIndex,
-  kTilesIn,
-  kTile,
-  kFrame,
-  kCells,
-  kCell
-};
+enum Query { kMeta, kSegment, kVertices, kSuccessors, kTileIndex, kTilesIn, kTile, kFrame };
 constexpr const char* kQueries[] = {
     "SELECT value FROM meta WHERE key = ?",
     "SELECT length_m FROM segments WHERE id = ?",
@@ -40,47 +33,6 @@ constexpr const char* kQueries[] = {
     "(SELECT longest_m FROM spans WHERE segment = ?1 AND layer = ?2) ORDER BY number",
     "SELECT digest, frame FROM tiles WHERE segment = ? AND layer = ? AND number = ?",
     "SELECT frame FROM frames WHERE id = ?",
-    "SELECT number, items, bytes, digest FROM cells WHERE layer = ? AND number BETWEEN ? AND ? "
-    "ORDER BY number",
-    "SELECT digest, frame FROM cells WHERE layer = ? AND number = ?",
-};
-
-// Every tile with its bytes. A tile whose bytes are missing comes with a NULL frame.
-constexpr const char* kEveryFrame =
-    "SELECT tiles.segment, tiles.layer, tiles.number, tiles.bytes, tiles.digest, frames.frame "
-    "FROM tiles LEFT JOIN frames ON frames.id = tiles.frame "
-    "ORDER BY tiles.segment, tiles.layer, tiles.number";
-constexpr const char* kEveryCell =
-    "SELECT cells.layer, cells.number, cells.bytes, cells.digest, frames.frame "
-    "FROM cells LEFT JOIN frames ON frames.id = cells.frame ORDER BY cells.layer, cells.number";
-constexpr const char* kWrongSpans =
-    "SELECT segment, layer FROM tiles LEFT JOIN spans USING (segment, layer) "
-    "WHERE longest_m IS NULL OR to_m - from_m > longest_m LIMIT 1";
-
-std::string tile_name(const std::string& segment, const std::string& layer, std::int64_t index) {
-  return "segment " + segment + ", layer " + layer + ", tile " + std::to_string(index);
-}
-
-std::string cell_name(const std::string& layer, std::int64_t number) {
-  return "layer " + layer + ", cell " + std::to_string(number);
-}
-
-Error corrupt(const std::string& where, const std::string& what) {
-  return {ErrorCode::corrupt, where, what, "replace the file by a good copy, or make it anew"};
-}
-
-// Resets a statement when its rows have been read, however that ended.
-class Rows {
- public:
-  explicit Rows(sqlite::Statement& statement) : statement_(statement) {}
-  ~Rows() { statement_.reset(); }
-  Rows(const Rows&) = delete;
-  Rows& operator=(const Rows&) = delete;
-  Result<bool> next() { return statement_.step(); }
-  const sqlite::Statement* operator->() const { return &statement_; }
-
- private:
-  sqlite::Statement& statement_;
 };
 
 Result<std::int64_t> pragma(const sqlite::Database& map, const char* name) {
@@ -115,15 +67,6 @@ TileEntry entry_at(const Rows& row) {
           row->text(5)};
 }
 
-CellEntry cell_entry_at(const Rows& row) {
-  return {static_cast<std::uint32_t>(row->integer(0)), static_cast<std::uint64_t>(row->integer(1)),
-          static_cast<std::uint64_t>(row->integer(2)), row->text(3)};
-}
-
-bool is_sound_cell(const Rows& row) {
-  return row->integer(1) >= 0 && row->integer(2) >= 0 && is_digest(row->text(3));
-}
-
 bool is_sound(const Rows& row) {
   return row->integer(0) >= 0 && row->integer(0) <= std::numeric_limits<std::uint32_t>::max() &&
          row->real(1) <= row->real(2) && row->integer(3) >= 0 && row->integer(4) >= 0 &&
@@ -135,6 +78,7 @@ bool is_sound(const Rows& row) {
 struct MapReader::Impl {
   sqlite::Database database;
   std::vector<sqlite::Statement> queries{};  // go before the connection they belong to
+  std::optional<MapCells> cells{};           // the same
   std::string build{};
   std::string feature_json{};
   Bounds bounds{};
@@ -150,6 +94,9 @@ struct MapReader::Impl {
       if (!query) return query.error();
       queries.push_back(std::move(*query));
     }
+    Result<MapCells> table = MapCells::of(database);
+    if (!table) return table.error();
+    cells = std::move(*table);
     return ok_status();
   }
 
@@ -183,28 +130,14 @@ struct MapReader::Impl {
     return status;
   }
 
-  // Gives each row of a query without parameters to `use`, which may end it by an error.
-  template <class Use>
-  Status for_each_row(const char* sql, Use use) const {
-    Result<sqlite::Statement> statement = database.prepare(sql);
-    if (!statement) return statement.error();
-    Rows row(*statement);
-    while (true) {
-      const Result<bool> more = row.next();
-      if (!more) return more.error();
-      if (!*more) return ok_status();
-      const Status used = use(row);
-      if (!used.ok()) return used;
-    }
-  }
-
   Status read_lists() {
-    Status status = for_each_row("SELECT name, parameters FROM layers", [&](const Rows& row) {
-      layers[row->text(0)] = row->text(1);
-      return ok_status();
-    });
+    Status status =
+        for_each_row(database, "SELECT name, parameters FROM layers", [&](const Rows& row) {
+          layers[row->text(0)] = row->text(1);
+          return ok_status();
+        });
     if (!status.ok()) return status;
-    return for_each_row("SELECT id FROM segments ORDER BY id", [&](const Rows& row) {
+    return for_each_row(database, "SELECT id FROM segments ORDER BY id", [&](const Rows& row) {
       segment_ids.push_back(row->text(0));
       return ok_status();
     });
@@ -222,24 +155,6 @@ struct MapReader::Impl {
   Status require(const std::string& segment, const std::string& layer) const {
     if (!std::ranges::binary_search(segment_ids, segment)) return no_segment(segment);
     return require_layer(layer);
-  }
-
-  // The cells numbered `first` to `last` that meet the box.
-  Result<std::vector<CellEntry>> cells(const std::string& layer, std::uint32_t first,
-                                       std::uint32_t last, const Bounds& box) {
-    Rows row(query(kCells).bind(1, layer).bind(2, std::int64_t{first}).bind(3, std::int64_t{last}));
-    std::vector<CellEntry> entries;
-    while (true) {
-      const Result<bool> more = row.next();
-      if (!more) return more.error();
-      if (!*more) return entries;
-      if (!is_sound_cell(row)) {
-        return corrupt(place() + ", " + cell_name(layer, row->integer(0)),
-                       "the entry in the index of cells is damaged");
-      }
-      const CellEntry entry = cell_entry_at(row);
-      if (GridCell::numbered(entry.cell).bounds().meets(box)) entries.push_back(entry);
-    }
   }
 
   Result<std::vector<TileEntry>> entries(Query kind, const std::string& segment,
@@ -286,54 +201,6 @@ struct MapReader::Impl {
     const ByteView bytes = row->blob(0);
     if (digest_of(bytes) != digest) return corrupt(where, "the tile's bytes break its digest");
     return Bytes(bytes.begin(), bytes.end());
-  }
-
-  Status check_integrity() const {
-    return for_each_row("PRAGMA integrity_check(1)", [&](const Rows& row) {
-      return row->text(0) == "ok" ? ok_status() : Status(corrupt(place(), row->text(0)));
-    });
-  }
-
-  // Whether the bytes in a row are whole. From the column `bytes` on it has the length, the digest
-  // and the frame.
-  Status check_frame(const Rows& row, int bytes, const std::string& name) const {
-    const ByteView frame = row->blob(bytes + 2);
-    if (static_cast<std::int64_t>(frame.size()) == row->integer(bytes) &&
-        digest_of(frame) == row->text(bytes + 1)) {
-      return ok_status();
-    }
-    return corrupt(place() + ", " + name, "the tile's bytes break its digest");
-  }
-
-  Status check_frames() const {
-    const Status tiles = for_each_row(kEveryFrame, [&](const Rows& row) {
-      return check_frame(row, 3, tile_name(row->text(0), row->text(1), row->integer(2)));
-    });
-    if (!tiles.ok()) return tiles;
-    return for_each_row(kEveryCell, [&](const Rows& row) {
-      return check_frame(row, 2, cell_name(row->text(0), row->integer(1)));
-    });
-  }
-
-  Status check_spans() const {
-    return for_each_row(kWrongSpans, [&](const Rows& row) {
-      return Status(corrupt(place() + ", segment " + row->text(0) + ", layer " + row->text(1),
-                            "a tile is longer than the longest one"));
-    });
-  }
-
-  Status check_content() const {
-    const Result<std::string> computed = build_of(database);
-    if (!computed) return computed.error();
-    if (*computed != build) {
-      return corrupt(place(), "the content has the build " + *computed + ", not " + build);
-    }
-    const Result<Bounds> box = bounds_of(database);
-    if (!box) return box.error();
-    const bool same = box->west_deg == bounds.west_deg && box->south_deg == bounds.south_deg &&
-                      box->east_deg == bounds.east_deg && box->north_deg == bounds.north_deg;
-    return same ? ok_status()
-                : Status(corrupt(place(), "the bounds are not those of the vertices and cells"));
   }
 };
 
@@ -419,32 +286,21 @@ Result<std::vector<CellEntry>> MapReader::cells_in(const std::string& layer,
                                                    const Bounds& box) const {
   const Status there = impl_->require_layer(layer);
   if (!there.ok()) return there.error();
-  // A box also meets the cells that it only touches: one row more to the south.
-  const std::uint32_t south_row = GridCell::at(std::clamp(box.south_deg, -90.0, 90.0), -180).row;
-  const GridCell first{south_row > 0 ? south_row - 1 : 0, 0};
-  const GridCell last = GridCell::at(std::clamp(box.north_deg, -90.0, 90.0), 180);
-  return impl_->cells(layer, first.number(), last.number(), box);
+  return impl_->cells->in(layer, box);
 }
 
 Result<Bytes> MapReader::cell(const std::string& layer, std::uint32_t number) const {
   const Status there = impl_->require_layer(layer);
   if (!there.ok()) return there.error();
   const std::string name = cell_name(layer, number);
-  Rows row(impl_->query(kCell).bind(1, layer).bind(2, std::int64_t{number}));
-  const Result<bool> found = row.next();
-  if (!found) return found.error();
-  if (!*found) {
-    return Error{ErrorCode::not_found, impl_->place(), "the map has no " + name, ""};
-  }
-  return impl_->frame(row->integer(1), row->text(0), impl_->place() + ", " + name);
+  const Result<std::optional<MapCells::Place>> place = impl_->cells->place_of(layer, number);
+  if (!place) return place.error();
+  if (!*place) return Error{ErrorCode::not_found, impl_->place(), "the map has no " + name, ""};
+  return impl_->frame((*place)->frame, (*place)->digest, impl_->place() + ", " + name);
 }
 
 Status MapReader::verify() const {
-  Status status = impl_->check_integrity();
-  if (status.ok()) status = impl_->check_frames();
-  if (status.ok()) status = impl_->check_spans();
-  if (status.ok()) status = impl_->check_content();
-  return status;
+  return verify_map(impl_->database, impl_->build, impl_->bounds);
 }
 
 }  // namespace milepost

@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from laboratory.road import LocalFrame, Road, earth_centred
+from laboratory.road import LocalFrame, Road, earth_centred, geodetic
 
 
 def arc(radius_m, length_m=80.0, step_m=2.0):
@@ -58,6 +58,10 @@ class Frames(unittest.TestCase):
         east_m = frame.from_earth(earth_centred(49.0, 8.001, 0.0))
         self.assertAlmostEqual(north_m[1], 111.2096, delta=0.003)
         self.assertAlmostEqual(east_m[0], 73.1722, delta=0.003)
+
+    def test_latitude_longitude_and_height_come_back(self):
+        for place in ((49.0, 8.4, 110.0), (-33.9, 151.2, -20.0), (0.0, 0.0, 0.0), (71.0, -156.8, 8000.0)):
+            np.testing.assert_allclose(geodetic(earth_centred(*place)), place, rtol=0, atol=1e-8)
 
     def test_there_and_back(self):
         frame = LocalFrame(-33.9, 151.2, 40)

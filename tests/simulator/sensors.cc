@@ -59,10 +59,10 @@ std::vector<GpsFix> receive(const Motion& motion, const SkyView& sky_view, cv::R
   return fixes;
 }
 
-std::vector<OdometryReading> measure_wheels(const Motion& motion, cv::RNG& random) {
+std::vector<Odometry> measure_wheels(const Motion& motion, cv::RNG& random) {
   const double scale = 1 + random.gaussian(kSpeedScaleError);
   const double drift_dps = random.gaussian(kYawDriftDps);
-  std::vector<OdometryReading> readings;
+  std::vector<Odometry> readings;
   for (double time_s = motion.start_s(); time_s <= motion.end_s(); time_s += kOdometerPeriodS) {
     const double before_m = motion.along_m_at(time_s - kOdometerPeriodS / 2);
     const double after_m = motion.along_m_at(time_s + kOdometerPeriodS / 2);

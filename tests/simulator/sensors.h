@@ -25,7 +25,7 @@ double receiver_sigma_m(double open_share);
 std::vector<GpsFix> receive(const Motion& motion, const SkyView& sky_view, cv::RNG& random);
 
 // Ten readings a second, with noise, an error of scale and a drift of the yaw rate.
-std::vector<OdometryReading> measure_wheels(const Motion& motion, cv::RNG& random);
+std::vector<Odometry> measure_wheels(const Motion& motion, cv::RNG& random);
 
 // What the camera makes of a picture: automatic exposure, then noise of the given standard
 // deviation in grey levels.

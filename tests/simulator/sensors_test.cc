@@ -83,7 +83,7 @@ TEST(Receiver, ErrorsOfOneSecondToTheNextAreAlike) {
 TEST(Wheels, SaySpeedAndTurnWithinTheirErrors) {
   const Motion straight = northwards(0, 300);
   cv::RNG random(5);
-  for (const OdometryReading& reading : measure_wheels(straight, random)) {
+  for (const Odometry& reading : measure_wheels(straight, random)) {
     const double speed = straight.speed_mps_at(reading.timestamp_s);
     EXPECT_NEAR(reading.speed_mps, speed, 0.06 * speed + 0.25);
     EXPECT_NEAR(reading.yaw_rate_dps, 0, 1.6);
@@ -94,7 +94,7 @@ TEST(Wheels, SaySpeedAndTurnWithinTheirErrors) {
   plan.cruise_mps = 4;
   const Motion turning(Path::circle({0, 0}, 12), 0, plan);
   const auto readings = measure_wheels(turning, random);
-  const OdometryReading& reading = readings[readings.size() / 2];
+  const Odometry& reading = readings[readings.size() / 2];
   const double expected_dps = -reading.speed_mps / 12 * 180 / CV_PI;  // counter-clockwise
   EXPECT_NEAR(reading.yaw_rate_dps, expected_dps, 2.5);
 }
@@ -107,7 +107,7 @@ TEST(Wheels, GoFurtherOnTheOutsideOfABend) {
   const Motion outside(Path::circle({0, 0}, 12), 3, plan);  // counter-clockwise, 3 m to the right
   cv::RNG random(5);
   const auto readings = measure_wheels(outside, random);
-  const OdometryReading& reading = readings[readings.size() / 2];
+  const Odometry& reading = readings[readings.size() / 2];
   EXPECT_NEAR(reading.speed_mps / outside.speed_mps_at(reading.timestamp_s), 15.0 / 12, 0.08);
 }
 

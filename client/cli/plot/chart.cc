@@ -32,6 +32,10 @@ std::string attribute(const char* name, const std::string& value) {
   return std::string(" ") + name + R"(=")" + value + R"(")";
 }
 
+std::string translation(double right_px, double down_px) {
+  return "translate(" + whole(std::lround(right_px)) + " " + whole(std::lround(down_px)) + ")";
+}
+
 // The stretches of points without a gap.
 std::vector<std::vector<Point>> unbroken(const std::vector<Point>& points) {
   std::vector<std::vector<Point>> runs(1);
@@ -147,14 +151,22 @@ void Chart::circle(const Point& at, double radius_px, const std::string& css_cla
               attribute("cy", percent(1 - y_.share(at.y))) + ">" + title(text) + "</circle>\n";
 }
 
+void Chart::symbol(const Point& at, double right_px, double down_px, const std::string& css_class,
+                   const std::string& id) {
+  if (!is_drawable(at)) return;
+  overlay_ += "<use" + attribute("href", "#" + id) + attribute("class", css_class) +
+              attribute("x", percent(x_.share(at.x))) +
+              attribute("y", percent(1 - y_.share(at.y))) +
+              attribute("transform", translation(right_px, down_px)) + "/>\n";
+}
+
 void Chart::word(const Point& at, double right_px, double down_px, const std::string& css_class,
                  const std::string& text) {
   if (!is_drawable(at)) return;
   overlay_ += "<text" + attribute("class", css_class) + attribute("x", percent(x_.share(at.x))) +
               attribute("y", percent(1 - y_.share(at.y))) +
-              attribute("transform", "translate(" + std::to_string(std::lround(right_px)) + " " +
-                                         std::to_string(std::lround(down_px)) + ")") +
-              ">" + escaped(text) + "</text>\n";
+              attribute("transform", translation(right_px, down_px)) + ">" + escaped(text) +
+              "</text>\n";
 }
 
 void Chart::level(double y, const std::string& css_class, const std::string& name) {
@@ -177,10 +189,11 @@ void Chart::hover(const std::vector<HoverStrip>& strips) {
 }
 
 void Chart::add_lane(const std::string& css_class) {
-  const int middle_px = kLanesTopPx + kLaneHeightPx * (lanes_count_ + 1);
-  lane_heads_ += "<circle" + attribute("class", css_class) + attribute("cx", "-10") +
-                 attribute("cy", whole(middle_px)) + attribute("r", "3") + "/>\n";
   ++lanes_count_;
+  if (css_class.empty()) return;
+  lane_heads_ += "<circle" + attribute("class", css_class) + attribute("cx", "-10") +
+                 attribute("cy", whole(kLanesTopPx + kLaneHeightPx * lanes_count_)) +
+                 attribute("r", "3") + "/>\n";
 }
 
 void Chart::mark_lane(double from_x, double to_x, const std::string& css_class,
@@ -262,7 +275,8 @@ std::string Chart::svg() const {
 
 std::string Chart::definitions() {
   return R"(<svg class="defs" aria-hidden="true"><defs><path id="up" d="M0 1l-4 7h8z"/>)"
-         "<path id=\"down\" d=\"M0 -1l-4 -7h8z\"/></defs></svg>\n";
+         "<path id=\"down\" d=\"M0 -1l-4 -7h8z\"/>"
+         "<path id=\"north\" d=\"M0 0V-30M-5 -22L0 -30L5 -22\"/></defs></svg>\n";
 }
 
 }  // namespace milepost::plot

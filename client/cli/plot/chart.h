@@ -47,6 +47,10 @@ class Chart {
   // A circle that shows `text` while the pointer rests on it; none outside the plot.
   void circle(const Point& at, double radius_px, const std::string& css_class,
               const std::string& text);
+  // A drawing of definitions(), by its id, with its own origin at the point moved by so many
+  // pixels.
+  void symbol(const Point& at, double right_px, double down_px, const std::string& css_class,
+              const std::string& id);
   // A word right of a point, or above or left of it, moved by so many pixels.
   void word(const Point& at, double right_px, double down_px, const std::string& css_class,
             const std::string& text);
@@ -54,7 +58,7 @@ class Chart {
   void level(double y, const std::string& css_class, const std::string& name);
   void hover(const std::vector<HoverStrip>& strips);
 
-  // Begins a lane below the x axis, marked at its left with the class.
+  // Begins a lane below the x axis, marked at its left with the class; with none, not marked.
   void add_lane(const std::string& css_class);
   // Marks a stretch of the newest lane. REQUIRES: add_lane() was called.
   void mark_lane(double from_x, double to_x, const std::string& css_class, const std::string& text);
@@ -62,7 +66,8 @@ class Chart {
   // The svg element.
   std::string svg() const;
 
-  // What arrows_beyond() refers to, once in a document.
+  // What arrows_beyond() and symbol() refer to, once in a document: "up" and "down", arrow heads
+  // whose tip is the origin; "north", an arrow of 30 pixels above its origin.
   static std::string definitions();
 
  private:

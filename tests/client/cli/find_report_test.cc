@@ -1,5 +1,4 @@
-// The report of a found drive: a real finder looks on black frames between four walls, and what it
-// is said to have found is made up, so that a test knows what must be told and drawn.
+// The report of a found drive that is made up, so that a test knows what must be told and drawn.
 #include "client/cli/find_report.h"
 
 #include <gmock/gmock.h>
@@ -9,65 +8,18 @@
 #include <limits>
 #include <regex>
 
-#include "client/cli/find_errors.h"
 #include "schema/base/file.h"
-#include "tests/client/cli/report_input.h"
+#include "tests/client/cli/found_run.h"
 #include "tests/support/temp_folder.h"
 
 namespace milepost {
 namespace {
 
+using testing::FoundRun;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::straight_drive;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-const std::vector<Wall> kYard = {{{48.999, 8.399}, {49.001, 8.399}, 0.5},
-                                 {{49.001, 8.399}, {49.001, 8.401}, 0.5},
-                                 {{49.001, 8.401}, {48.999, 8.401}, 0.5},
-                                 {{48.999, 8.401}, {48.999, 8.399}, 0.5}};
-
-FindStatus status_of(std::size_t frame, std::size_t found_from) {
-  return frame < found_from ? FindStatus::initializing : FindStatus::tracking;
-}
-
-// A run in which each fix lies 2 m north of the truth and looks 3 degrees too far clockwise.
-struct FoundRun {
-  explicit FoundRun(std::size_t frames, std::size_t found_from) : drive(straight_drive(frames)) {
-    FinderSettings settings;
-    settings.particles = 200;
-    Finder finder(kYard, {300, 300, 32, 24}, settings);
-    const cv::Mat black = cv::Mat::zeros(48, 64, CV_8UC1);
-    for (std::size_t i = 0; i < frames; ++i) {
-      finder.find(black, drive.frames[i].timestamp_s);
-      FindFix fix;
-      fix.timestamp_s = drive.frames[i].timestamp_s;
-      fix.status = status_of(i, found_from);
-      const LocalFrame here(drive.frames[i].position);
-      fix.position = here.geo_from_enu({0, 2, 0});
-      fix.heading_deg = 3;
-      fix.sigma_m = 0.9;
-      fix.heading_sigma_deg = 2;
-      fix.mass = 0.5;
-      found.push_back({drive.frames[i].filename, fix, 10 + static_cast<double>(i)});
-      recorder.observe(i, fix.status, finder);
-    }
-  }
-
-  FindReportInput input() const {
-    FindReportInput input;
-    input.map_name = "town (build 4f1c9a2b)";
-    input.map_source = "town.map";
-    input.drive = &drive;
-    input.frames = &found;
-    input.recorder = &recorder;
-    return input;
-  }
-
-  Drive drive;
-  std::vector<FoundFrame> found;
-  FindRecorder recorder;
-};
 
 // Whether Python's XML parser reads the whole document.
 bool is_well_formed(const std::string& html) {
@@ -88,48 +40,6 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
-std::vector<std::size_t> frames_of(const std::vector<FindSnapshot>& snapshots) {
-  std::vector<std::size_t> frames;
-  for (const FindSnapshot& snapshot : snapshots) frames.push_back(snapshot.frame);
-  return frames;
-}
-
-TEST(FindSummary, CountsFromTheFirstTrackedFrame) {
-  const FoundRun run(40, 10);
-  const FindSummary summary = find_summary(run.found, find_errors(run.drive, run.found));
-  EXPECT_EQ(summary.frames, 40U);
-  EXPECT_EQ(summary.tracked_frames, 30U);
-  EXPECT_EQ(summary.found_frame, 10U);
-  EXPECT_NEAR(summary.found_after_s, 1, 1e-9);
-  EXPECT_NEAR(summary.position_m.mean, 2, 0.001);
-  EXPECT_NEAR(summary.position_m.max, 2, 0.001);
-  EXPECT_NEAR(summary.heading_deg.p50, 3, 1e-9);
-  EXPECT_EQ(summary.position_m.within_2_sigma, 0);
-  EXPECT_EQ(summary.heading_deg.within_2_sigma, 1);
-  EXPECT_NEAR(summary.latency_ms_p50, 29.5, 1e-9);
-}
-
-TEST(FindSummary, HeadingsAreComparedAcrossNorth) {
-  FoundRun run(2, 0);
-  run.drive.frames[1].heading_deg = 359;
-  EXPECT_NEAR(find_errors(run.drive, run.found)[1].heading_deg, 4, 1e-9);
-}
-
-TEST(FindRecorder, ShowsStartSearchFindingAndEnd) {
-  const FoundRun run(200, 100);
-  const auto frames = frames_of(run.recorder.chosen(6));
-  ASSERT_EQ(frames.size(), 6U);
-  EXPECT_EQ(frames[0], 0U);
-  EXPECT_NEAR(static_cast<double>(frames[1]), 50, 4);
-  EXPECT_EQ(frames[2], 100U);
-  EXPECT_NEAR(static_cast<double>(frames[3]), 133, 4);
-  EXPECT_EQ(frames[5], 199U);
-}
-
-TEST(FindRecorder, OneFrameIsOneSnapshot) {
-  EXPECT_EQ(frames_of(FoundRun(1, 0).recorder.chosen(6)), std::vector<std::size_t>{0});
-}
-
 TEST(FindReport, TellsTheFigures) {
   const std::string html = find_report_html(FoundRun(40, 10).input());
   EXPECT_TRUE(is_well_formed(html));
@@ -146,6 +56,17 @@ TEST(FindReport, AVehicleThatIsNeverFoundIsToldOf) {
   EXPECT_TRUE(is_well_formed(html));
   EXPECT_THAT(html, HasSubstr("The vehicle was not found in 5 frames."));
   EXPECT_THAT(html, HasSubstr("<dd>never</dd>"));
+}
+
+TEST(FindReport, FramesInAWrongPlaceAreToldOf) {
+  FoundRun run(40, 10);
+  EXPECT_THAT(find_report_html(run.input()), Not(HasSubstr("wrong place")));
+  for (std::size_t i : {5U, 20U, 21U}) {
+    const LocalFrame here(run.drive.frames[i].position);
+    run.found[i].fix.position = here.geo_from_enu({50, 0, 0});
+  }
+  EXPECT_THAT(find_report_html(run.input()),
+              HasSubstr("In 2 frames it was taken to be in a wrong place, more than 10 m off."));
 }
 
 TEST(FindReport, IsTheSameEachTime) {
@@ -173,11 +94,12 @@ TEST(FindReport, ABackdropLiesOnceBeneathAllPlans) {
   const FoundRun run(20, 5);
   FindReportInput input = run.input();
   EXPECT_THAT(find_report_html(input), Not(HasSubstr("<image")));
-  // The walls' box is 223 m from south to north about its origin.
-  input.backdrop = Backdrop{{1, 2, 3}, {49.001, 8.399, 0}, {49.001, 8.401, 0}, {48.999, 8.399, 0}};
+  // The walls' box, 223 m from south to north about its origin.
+  input.backdrop = Backdrop{cv::Mat(200, 200, CV_8UC3, cv::Scalar(90, 90, 90)),
+                            {1e-5, 0, 0, -1e-5, 8.399005, 49.000995}};
   const std::string html = find_report_html(input);
   EXPECT_TRUE(is_well_formed(html));
-  EXPECT_EQ(count_of(html, "data:image/jpeg;base64,AQID\""), 1U);
+  EXPECT_EQ(count_of(html, "data:image/jpeg;base64,/9j/"), 1U);  // a JPEG's first bytes
   std::smatch match;
   ASSERT_TRUE(std::regex_search(html, match, std::regex(R"(<image[^>]*matrix\(([^)]*)\))")));
   std::istringstream numbers(match[1]);
@@ -187,6 +109,18 @@ TEST(FindReport, ABackdropLiesOnceBeneathAllPlans) {
   EXPECT_NEAR(down_y, 222.4, 0.2);
   EXPECT_NEAR(x, -right_x / 2, 0.1);
   EXPECT_NEAR(y, -down_y / 2, 0.1);
+}
+
+TEST(FindReport, OfABackdropOnlyWhatPlansShowIsInThePage) {
+  const FoundRun run(20, 5);
+  FindReportInput input = run.input();
+  // A town of 20 by 20 km about the walls, and one beside them.
+  const cv::Mat town(2000, 2000, CV_8UC3, cv::Scalar(90, 90, 90));
+  input.backdrop = Backdrop{town, {1e-4, 0, 0, -1e-4, 8.3, 49.1}};
+  EXPECT_EQ(count_of(find_report_html(input), "<image"), 1U);
+  EXPECT_LT(find_report_html(input).size(), 400'000U);
+  input.backdrop = Backdrop{town, {1e-4, 0, 0, -1e-4, 8.6, 49.1}};
+  EXPECT_EQ(count_of(find_report_html(input), "<image"), 0U);
 }
 
 TEST(FindReport, ALongDriveStaysSmall) {

@@ -173,5 +173,25 @@ TEST(PlotChart, ALaneMarkOfOnePointIsAsLongAsItsEnds) {
   EXPECT_THAT(chart.svg(), HasSubstr("class=\"s-lost\" d=\"M5000 14H5001\"><title>lost</title>"));
 }
 
+TEST(PlotChart, ALaneWithoutAClassHasNoHead) {
+  Chart chart = small_chart();
+  chart.add_lane("");
+  EXPECT_THAT(chart.svg(), Not(HasSubstr("<circle")));
+  chart.mark_lane(5, 5, "s-lost", "");
+  EXPECT_THAT(chart.svg(), HasSubstr("M5000 14H5001"));
+  chart.add_lane("m1");
+  EXPECT_THAT(chart.svg(), HasSubstr("<circle class=\"m1\" cx=\"-10\" cy=\"23\" r=\"3\"/>"));
+}
+
+TEST(PlotChart, ASymbolKeepsItsDistanceFromItsPoint) {
+  Chart chart = small_chart();
+  chart.symbol({10, 0}, -20, 40.4, "casing", "north");
+  EXPECT_THAT(chart.svg(), HasSubstr("<use href=\"#north\" class=\"casing\" x=\"100.00%\" "));
+  EXPECT_THAT(chart.svg(), HasSubstr("transform=\"translate(-20 40)\"/>"));
+  EXPECT_THAT(Chart::definitions(), HasSubstr("id=\"north\""));
+  chart.symbol({kNaN, 0}, 0, 0, "north", "north");
+  EXPECT_THAT(chart.svg(), Not(HasSubstr("class=\"north\"")));
+}
+
 }  // namespace
 }  // namespace milepost::plot

@@ -59,5 +59,24 @@ TEST(MeanShift, ClimbsToTheMiddle) {
   EXPECT_NEAR(mode.pose.enu_m.x(), 10, 0.15);
 }
 
+// The heaviest bin is the lighter place's, which lies in the middle of it.
+TEST(MeanShift, APlaceOnTheCornerOfBinsIsNotOverlooked) {
+  Random random(1);
+  ParticleCloud cloud;
+  add_cluster(cloud, {{102.5, 22.5}, 1.05}, 0.4, random);
+  add_cluster(cloud, {{10, 10}, 0.7}, 0.6, random);
+  EXPECT_NEAR(densest_mode(cloud, {5, 0.35}).mass, 0.6, 0.01);
+}
+
+// The heaviest particle of the only bin sees a part of its place.
+TEST(MeanShift, ClimbsFromTheEdgeOfItsBin) {
+  Random random(1);
+  ParticleCloud cloud = cloud_about({{{13, 13}, 0.35}, 0.2, 0.05}, 1000, random);
+  cloud.push_back({{{15.7, 15.7}, 0.35}, 0.002});
+  const BeliefMode mode = densest_mode(cloud, {4, 0.35});
+  EXPECT_GT(mode.mass, 0.99);
+  EXPECT_NEAR(mode.pose.enu_m.x(), 13, 0.1);
+}
+
 }  // namespace
 }  // namespace milepost

@@ -95,6 +95,11 @@ TEST_F(ModeWatchTest, LessIsNeededToStayThanToBeFound) {
   EXPECT_EQ(steps(20, 0.6, 0.8), FindStatus::lost);
 }
 
+TEST_F(ModeWatchTest, OneFrameThatIsNotExplainedLosesNothing) {
+  steps(60, 0.95, 0.8);
+  EXPECT_EQ(step(0.95, 0), FindStatus::tracking);
+}
+
 TEST_F(ModeWatchTest, WhatExplainsLessThanItUsedToIsDoubted) {
   steps(100, 0.95, 0.8);
   EXPECT_FALSE(watch_.is_doubtful());

@@ -85,6 +85,8 @@ TEST(ScenePoints, StandingStillTellsNothing) {
   }
   // The short steps add up.
   EXPECT_FALSE(tracker.observe(seen(wall, 1, 0), {0.2, 0.97, 0}).empty());
+  // What is known by now is not told again.
+  EXPECT_TRUE(tracker.observe(seen(wall, 1, 0), {0.2, 0.01, 0}).empty());
 }
 
 TEST(ScenePoints, AFrameWithoutFeaturesIsDrivenOver) {

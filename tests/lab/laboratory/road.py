@@ -21,6 +21,18 @@ def earth_centred(latitude_deg, longitude_deg, altitude_m):
                      (normal_m * (1 - WGS84_E2) + altitude_m) * np.sin(latitude)], axis=-1)
 
 
+def geodetic(earth_m):
+    """Latitude and longitude in degrees and height in metres of an earth-centred position, not at a pole."""
+    x_m, y_m, z_m = earth_m
+    distance_m = np.hypot(x_m, y_m)
+    latitude = np.arctan2(z_m, distance_m * (1 - WGS84_E2))
+    for _ in range(3):  # each nearer by orders of magnitude, for heights near the ground
+        normal_m = WGS84_A_M / np.sqrt(1 - WGS84_E2 * np.sin(latitude) ** 2)
+        latitude = np.arctan2(z_m + WGS84_E2 * normal_m * np.sin(latitude), distance_m)
+    return float(np.degrees(latitude)), float(np.degrees(np.arctan2(y_m, x_m))), float(
+        distance_m / np.cos(latitude) - normal_m)
+
+
 class LocalFrame:
     """East, north, up in metres of the tangent plane at an origin."""
 
