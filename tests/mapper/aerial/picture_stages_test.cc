@@ -58,6 +58,14 @@ bool casts_shadow(const WallLine& wall, const Sun& sun) {
   return -right_of(direction_of(wall)).dot(shadow_direction(sun)) > 0.3;
 }
 
+// At one scale.
+RegionMap regions_of(const Picture& picture, double min_segment_m2 = 2) {
+  RegionSettings settings;
+  settings.scales = {60};
+  settings.min_segment_m2 = min_segment_m2;
+  return region_maps(picture, kShadowThreshold, {}, settings).front();
+}
+
 WallLines lines_of(const Picture& picture, const std::vector<cv::Mat>& maps,
                    const HoughSettings& settings = {}) {
   WallLines lines;
@@ -226,7 +234,7 @@ TEST(Segmentation, ColoursAndKindsPartRegions) {
 TEST(Regions, ARoofIsMeasured) {
   const House house{{20, 15}, 12, 8, 0};
   const Picture picture = drawn({{40, 30}, {house}, {300, 45}, 3, {}});
-  const RegionMap map = region_map(picture, kShadowThreshold, {}, {});
+  const RegionMap map = regions_of(picture);
   const auto roof =
       std::min_element(map.regions.begin(), map.regions.end(), [](const auto& a, const auto& b) {
         return std::abs(a.area_m2 - 96) < std::abs(b.area_m2 - 96);
@@ -251,9 +259,7 @@ TEST(Roofs, AHouseIsOneAndARoadIsNone) {
             {}};
   Picture picture = drawn(yard);
   cv::line(picture.bgr, {0, 350}, {799, 420}, cv::Scalar(125, 125, 125), 50);
-  RegionSettings whole_roofs;
-  whole_roofs.segmentation.min_region_m2 = 6;
-  const RegionMap map = region_map(picture, kShadowThreshold, {}, whole_roofs);
+  const RegionMap map = regions_of(picture, 6);
   WallLines walls;
   for (const House& house : yard.houses) {
     const WallLines of_house = walls_of(house);
@@ -293,7 +299,7 @@ TEST(SunEvidence, ShadowsTellTheAzimuth) {
       yard.houses.push_back({{x_m, 45}, 10, 8, -x_m});
     }
     SunEvidence evidence;
-    evidence.add(region_map(drawn(yard), kShadowThreshold, {}, {}));
+    evidence.add(regions_of(drawn(yard)));
     ASSERT_TRUE(evidence.azimuth_deg().has_value());
     EXPECT_LT(std::abs(std::remainder(*evidence.azimuth_deg() - azimuth_deg, 360)), 15);
   }
@@ -301,7 +307,7 @@ TEST(SunEvidence, ShadowsTellTheAzimuth) {
 
 TEST(SunEvidence, NothingIsKnownWithoutShadows) {
   SunEvidence evidence;
-  evidence.add(region_map(drawn({{40, 30}, {}, {}, 0, {}}), kShadowThreshold, {}, {}));
+  evidence.add(regions_of(drawn({{40, 30}, {}, {}, 0, {}})));
   EXPECT_FALSE(evidence.azimuth_deg().has_value());
 }
 
