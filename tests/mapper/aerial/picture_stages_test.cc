@@ -58,12 +58,12 @@ bool casts_shadow(const WallLine& wall, const Sun& sun) {
   return -right_of(direction_of(wall)).dot(shadow_direction(sun)) > 0.3;
 }
 
-// A roof of 12 x 8 m whose light changes by 40 grey values from end to end, without noise.
+// A roof of 12 x 8 m whose light changes by 12 grey values from end to end, without noise.
 Picture flat_roof_in_grass() {
   Picture picture = drawn({{24, 20}, {}, {}, 0, {}});
   picture.bgr.setTo(cv::Scalar(50, 120, 60));
   for (int x = 60; x < 180; ++x) {
-    picture.bgr(cv::Rect(x, 60, 1, 80)).setTo(cv::Scalar::all(140 + (x - 60) / 3.0));
+    picture.bgr(cv::Rect(x, 60, 1, 80)).setTo(cv::Scalar::all(140 + (x - 60) / 10.0));
   }
   return picture;
 }
