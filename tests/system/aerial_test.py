@@ -35,7 +35,7 @@ def drawn_yard(width, height):
             kind = 0
             if 4 < x_m < 16 and 4 < y_m < 12:
                 kind = 2
-            elif 6 < x_m < 18 and 6 < y_m < 14:
+            elif max(x_m - 16, y_m - 12, 0) < min(x_m - 4, y_m - 4, 2):
                 kind = 1
             row += tints[kind][(x * 31 + y * 17) % 97]
         rows.append(bytes(row))
