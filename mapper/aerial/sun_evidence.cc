@@ -19,7 +19,7 @@ constexpr double kMaxDarker = 0.7;   // and beyond which no more is counted
 constexpr double kDegPerDirection = 2;
 constexpr double kBorderFromM = 0.5;    // from a corner, where a shadow's border is looked at
 constexpr double kBorderToM = 4;        // and where that ends
-constexpr double kBorderStepM = 0.25;   // between two looks
+constexpr int kBorderSteps = 14;        // between them
 constexpr double kBesideBorderM = 0.5;  // where it is lit, to the other side dark
 constexpr int kSmoothing = 3;           // directions to either side that are one
 constexpr int kSearched = 22;           // directions to either side of the rough one
@@ -67,7 +67,8 @@ double border_contrast(const RegionMap& map, const Eigen::Vector2d& corner_px,
   const Eigen::Vector2d aside = kBesideBorderM / map.grid.metres_per_pixel * beyond;
   double lit = 0;
   double dark = 0;
-  for (double along_m = kBorderFromM; along_m <= kBorderToM; along_m += kBorderStepM) {
+  for (int i = 0; i <= kBorderSteps; ++i) {
+    const double along_m = kBorderFromM + (kBorderToM - kBorderFromM) * i / kBorderSteps;
     const Eigen::Vector2d on_border = corner_px + along_m / map.grid.metres_per_pixel * light;
     lit += lightness_at(map, on_border + aside);
     dark += lightness_at(map, on_border - aside);
