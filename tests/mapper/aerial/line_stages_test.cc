@@ -122,7 +122,7 @@ TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
 
 TEST(Coverage, WhatIsKnownIsLeftOut) {
   const WallLines known = {line(0, 0, 10, 0)};
-  const WallLines lines = {line(1, 1, 9, 1.2), line(8, 0.5, 18, 0.5), line(5, 0, 5, 6),
+  const WallLines lines = {line(1, 1, 9, 1.2), line(8, 0.5, 18, 0.5), line(5, -1, 5, 1),
                            line(0, 3, 10, 3)};
   const WallLines others = not_covered(lines, known, {});
   ASSERT_EQ(others.size(), 3U);
