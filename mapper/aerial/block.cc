@@ -1,6 +1,8 @@
 #include "mapper/aerial/block.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -34,17 +36,21 @@ WallLines straight_lines(const std::vector<cv::Mat>& maps, const Gradient& gradi
 
 WallLines walls_of_roofs(const Picture& picture, const ImageLight& light, const WallLines& lines,
                          const ExtractionSettings& settings, const StagePictures& pictures) {
-  const RegionMap map =
-      region_map(picture, light.shadow_threshold, settings.clutter, settings.regions);
   WallLines straight;
   std::copy_if(lines.begin(), lines.end(), std::back_inserter(straight),
                [](const WallLine& line) { return line.length_m() >= kMinStraightM; });
-  const std::vector<double> probabilities =
-      roof_probabilities(map, roof_features(map, straight, light.sun), settings.roofs);
-  const cv::Mat roofs = roof_picture(map, probabilities, settings.roofs);
-  pictures.show_regions("6-regions", map.labels);
+  const std::vector<RegionMap> maps =
+      region_maps(picture, light.shadow_threshold, settings.clutter, settings.regions);
+  std::vector<cv::Mat> by_scale;
+  for (const RegionMap& map : maps) {
+    const std::vector<double> probabilities =
+        roof_probabilities(map, roof_features(map, straight, light.sun), settings.roofs);
+    by_scale.push_back(roof_picture(map, probabilities, settings.roofs));
+    pictures.show_regions("6-regions-" + std::to_string(by_scale.size()), map.labels);
+  }
+  const cv::Mat roofs = over_scales(by_scale);
   pictures.show_share("7-roofs", roofs);
-  return at_roof_edges(lines, roofs, map.grid, settings.roof_edges);
+  return at_roof_edges(lines, roofs, maps.front().grid, settings.roof_edges);
 }
 
 }  // namespace
@@ -71,7 +77,7 @@ WallLines block_walls(const Picture& picture, const ImageLight& light,
     const cv::Mat green = green_mask(picture, settings.clutter);
     pictures.show_masks("4-clutter", picture.bgr, green, rough);
     take_away(maps, rough);
-    take_away(maps, green);
+    take_away(maps, within(green, metres_per_pixel, settings.clutter));
   }
   WallLines lines = straight_lines(maps, gradient, picture.grid, settings);
   pictures.show_lines("5-lines", picture, lines);

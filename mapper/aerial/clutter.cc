@@ -39,4 +39,10 @@ cv::Mat green_mask(const Picture& picture, const ClutterSettings& settings) {
   return excess > settings.min_greenness * sum;
 }
 
+cv::Mat within(const cv::Mat& mask, double metres_per_pixel, const ClutterSettings& settings) {
+  cv::Mat inner;
+  cv::erode(mask, inner, disc(settings.border_m, metres_per_pixel));
+  return inner;
+}
+
 }  // namespace milepost

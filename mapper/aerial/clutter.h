@@ -15,6 +15,7 @@ struct ClutterSettings {
   double closing_m = 0.4;       // gaps narrower than twice this are closed
   double min_size_m = 2.0;      // what stays of clutter after this much is taken off all around
   double min_greenness = 0.08;  // (2 G - R - B) / (R + G + B) of vegetation
+  double border_m = 0.4;        // of vegetation, where edges stay: walls stand there, too
 };
 
 // CV_8UC1, 255 where the range of the corner response says that the picture is rough. REQUIRES:
@@ -23,5 +24,8 @@ cv::Mat rough_mask(const cv::Mat& grey, double metres_per_pixel, const ClutterSe
 
 // CV_8UC1, 255 where the picture is green; nowhere in a grey picture.
 cv::Mat green_mask(const Picture& picture, const ClutterSettings& settings);
+
+// The mask without its border.
+cv::Mat within(const cv::Mat& mask, double metres_per_pixel, const ClutterSettings& settings);
 
 }  // namespace milepost

@@ -20,6 +20,7 @@ namespace milepost {
 namespace {
 
 constexpr std::size_t kSurveyedBlocks = 16;  // of the image, for its light
+constexpr double kSurveyedScale = 60;        // of the regions in it
 constexpr double kUnknownAzimuthDeg = 180;   // where no shadow tells
 constexpr double kUnknownElevationDeg = 45;
 
@@ -77,12 +78,14 @@ Result<Survey> survey(const ImageSource& source, const ExtractionSettings& setti
     found.light.sun.azimuth_deg = *settings.sun_azimuth_deg;
     return found;
   }
+  RegionSettings houses = settings.regions;
+  houses.scales = {kSurveyedScale};
   SunEvidence evidence;
   for (const Block& block : sample) {
     const Result<Picture> picture = image->read(block.core);
     if (!picture) return picture.error();
     evidence.add(
-        region_map(*picture, found.light.shadow_threshold, settings.clutter, settings.regions));
+        region_maps(*picture, found.light.shadow_threshold, settings.clutter, houses).front());
   }
   const std::optional<double> azimuth_deg = evidence.azimuth_deg();
   found.sun_was_estimated = azimuth_deg.has_value();

@@ -38,8 +38,8 @@ enum class Stage {
 
 struct ExtractionSettings {
   double metres_per_pixel = 0.1;
-  double block_m = 160;  // length of the sides of blocks
-  double margin_m = 20;  // that a block sees of its neighbours
+  double block_m = 200;  // length of the sides of blocks
+  double margin_m = 40;  // that a block sees of its neighbours: most of a large building
   std::set<Stage> without;
   std::optional<double> sun_azimuth_deg;    // none: estimated from the shadows
   std::optional<double> sun_elevation_deg;  // none: 45

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -101,31 +102,29 @@ Region region_of(const RegionMap& map, int label, const Sums& sums) {
   return region;
 }
 
-}  // namespace
-
-RegionMap region_map(const Picture& picture, double shadow_threshold,
-                     const ClutterSettings& clutter, const RegionSettings& settings) {
+// What the maps of all scales share: grid, lab and kinds.
+RegionMap without_regions(const Picture& picture, double shadow_threshold,
+                          const ClutterSettings& clutter, const RegionSettings& settings) {
   Picture coarse = resampled(picture, settings.metres_per_pixel);
-  cv::Mat smooth;
-  cv::bilateralFilter(coarse.bgr, smooth, 9, 30, 3);
-  coarse.bgr = smooth;
+  // In fractions of grey values: in whole ones a roof of slowly changing light would have steps.
+  cv::Mat unit, smooth, grey;
+  coarse.bgr.convertTo(unit, CV_32F, 1.0 / 255);
+  cv::bilateralFilter(unit, smooth, 9, 30.0 / 255, 3);
+  smooth.convertTo(coarse.bgr, CV_8U, 255);
 
   RegionMap map;
   map.grid = coarse.grid;
-  cv::Mat unit, grey;
-  smooth.convertTo(unit, CV_32F, 1.0 / 255);
-  cv::cvtColor(unit, map.lab, cv::COLOR_BGR2Lab);
-  cv::cvtColor(smooth, grey, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(smooth, map.lab, cv::COLOR_BGR2Lab);
+  cv::cvtColor(coarse.bgr, grey, cv::COLOR_BGR2GRAY);
   map.kinds = cv::Mat(grey.size(), CV_8UC1, cv::Scalar::all(kLit));
   map.kinds.setTo(kDark, grey < shadow_threshold);
   map.kinds.setTo(kGreen, green_mask(coarse, clutter));
   cv::medianBlur(map.kinds, map.kinds, 5);
   map.kinds.setTo(kDark, coarse.covered == 0);
+  return map;
+}
 
-  const Segmentation segmentation =
-      segmented(map.lab, map.kinds, settings.metres_per_pixel, settings.segmentation);
-  map.labels = segmentation.labels;
-  map.label_count = segmentation.count;
+void add_regions(RegionMap& map, const RegionSettings& settings) {
   const std::vector<Sums> sums = sums_by_label(map);
   const double min_pixels =
       settings.min_area_m2 / (settings.metres_per_pixel * settings.metres_per_pixel);
@@ -134,7 +133,24 @@ RegionMap region_map(const Picture& picture, double shadow_threshold,
     if (map.kinds.at<std::uint8_t>(sums[label].first) != kLit) continue;
     map.regions.push_back(region_of(map, label, sums[label]));
   }
-  return map;
+}
+
+}  // namespace
+
+std::vector<RegionMap> region_maps(const Picture& picture, double shadow_threshold,
+                                   const ClutterSettings& clutter, const RegionSettings& settings) {
+  const RegionMap shared = without_regions(picture, shadow_threshold, clutter, settings);
+  std::vector<RegionMap> maps;
+  for (const double scale : settings.scales) {
+    Segmentation segmentation = segmented(shared.lab, shared.kinds, settings.metres_per_pixel,
+                                          {scale, settings.min_segment_m2});
+    RegionMap map = shared;
+    map.labels = std::move(segmentation.labels);
+    map.label_count = segmentation.count;
+    add_regions(map, settings);
+    maps.push_back(std::move(map));
+  }
+  return maps;
 }
 
 }  // namespace milepost

@@ -33,7 +33,10 @@ struct Region {
 struct RegionSettings {
   double metres_per_pixel = 0.2;
   double min_area_m2 = 4;
-  SegmentationSettings segmentation;
+  double min_segment_m2 = 2;  // smaller segments join a neighbour
+  // Of the segmentation: the finest takes a roof apart by its light, the coarsest takes like roofs
+  // together, and each roof is whole in one of them.
+  std::vector<double> scales = {30, 60, 120, 250};
 };
 
 enum PixelKind : std::uint8_t { kLit = 0, kGreen = 1, kDark = 2 };
@@ -47,8 +50,9 @@ struct RegionMap {
   std::vector<Region> regions;  // ascending by label
 };
 
-// `shadow_threshold`: of grey values, below which a pixel is in shadow. Safe from several threads.
-RegionMap region_map(const Picture& picture, double shadow_threshold,
-                     const ClutterSettings& clutter, const RegionSettings& settings);
+// A map a scale, in their order. `shadow_threshold`: of grey values, below which a pixel is in
+// shadow. Safe from several threads.
+std::vector<RegionMap> region_maps(const Picture& picture, double shadow_threshold,
+                                   const ClutterSettings& clutter, const RegionSettings& settings);
 
 }  // namespace milepost

@@ -248,6 +248,8 @@ std::vector<double> roof_probabilities(const RegionMap& map,
   const Neighbours neighbours = neighbours_of(map);
   for (int round = 0; round < settings.rounds; ++round) {
     const Terms looks = fitted(terms, probabilities, weights);
+    const double roofs = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+    const double trust = settings.looks_trust * roofs / (roofs + settings.least_roofs);
     double share = 0;
     for (std::size_t i = 0; i < count; ++i) {
       share += weights[i] * probabilities[i] / static_cast<double>(count);
@@ -257,8 +259,7 @@ std::vector<double> roof_probabilities(const RegionMap& map,
       double around = 0;
       for (const auto& [other, part] : neighbours[i])
         around += part * log_odds(probabilities[other]);
-      next[i] = probability(shape_odds[i] +
-                            settings.looks_trust * (terms[i].dot(looks) - log_odds(share)) +
+      next[i] = probability(shape_odds[i] + trust * (terms[i].dot(looks) - log_odds(share)) +
                             settings.neighbour_trust * around);
     }
     probabilities = std::move(next);
@@ -282,6 +283,14 @@ cv::Mat roof_picture(const RegionMap& map, const std::vector<double>& probabilit
   cv::morphologyEx(picture, picture, cv::MORPH_CLOSE, disc(settings.closing_m, metres_per_pixel));
   cv::morphologyEx(picture, picture, cv::MORPH_OPEN, disc(settings.opening_m, metres_per_pixel));
   return picture;
+}
+
+cv::Mat over_scales(const std::vector<cv::Mat>& pictures) {
+  cv::Mat squares = cv::Mat::zeros(pictures.front().size(), CV_32FC1);
+  for (const cv::Mat& picture : pictures) cv::accumulateSquare(picture, squares);
+  cv::Mat roots;
+  cv::sqrt(squares / static_cast<double>(pictures.size()), roots);
+  return roots;
 }
 
 WallLines at_roof_edges(const WallLines& lines, const cv::Mat& roofs, const PixelGrid& grid,

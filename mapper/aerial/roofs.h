@@ -29,6 +29,7 @@ struct RoofSettings {
   double shape_bias = -7.5;
   std::array<double, 6> shape_weights = {0.04, -0.21, 2.5, 6.3, 4.3, 1.8};
   double looks_trust = 1;      // of the log odds by colour and looks
+  double least_roofs = 30;     // looks learned from so many roofs are trusted half as much
   double neighbour_trust = 2;  // of the mean log odds of neighbours of a like colour
   int rounds = 4;              // in which looks are learned and neighbours asked
   double closing_m = 0.3;      // gaps in a roof that are narrower than twice this are closed
@@ -49,10 +50,14 @@ std::vector<double> roof_probabilities(const RegionMap& map,
 cv::Mat roof_picture(const RegionMap& map, const std::vector<double>& probabilities,
                      const RoofSettings& settings);
 
+// The root of the mean square over pictures of several scales of regions: a roof that is whole in
+// one of them counts. REQUIRES: one picture or more, of one size.
+cv::Mat over_scales(const std::vector<cv::Mat>& pictures);
+
 struct RoofEdgeSettings {
-  double min_difference = 0.25;  // of the mean probability between both sides of a wall
-  double near_m = 0.4;           // from the wall, where its sides begin
-  double far_m = 1.3;            // and end
+  double min_difference = 0.3;  // of the mean probability between both sides of a wall
+  double near_m = 0.4;          // from the wall, where its sides begin
+  double far_m = 1.3;           // and end
 };
 
 // The lines that have a roof on one side and none on the other, turned so that it is on the right.

@@ -15,9 +15,7 @@
 #include "mapper/aerial/coverage.h"
 #include "mapper/aerial/extraction.h"
 #include "mapper/aerial/footprints.h"
-#include "mapper/aerial/wall_geojson.h"
 #include "mapper/aerial/wall_layer.h"
-#include "schema/base/file.h"
 #include "schema/command/command.h"
 
 namespace milepost {
@@ -39,7 +37,6 @@ struct AerialOptions {
   ImageSource image;
   std::string footprints;
   std::string map;
-  std::string geojson;
   std::string debug_images;
   std::vector<std::string> without;
   double sun_azimuth_deg = 0;
@@ -59,8 +56,6 @@ void add_options(CLI::App& app, AerialOptions& options) {
   app.add_option("--map", options.map,
                  "Map file to write the layer walls into; all else that it holds stays")
       ->required()
-      ->option_text("FILE");
-  app.add_option("--geojson", options.geojson, "File to write the walls to as lines, too")
       ->option_text("FILE");
   app.add_option("--debug-images", options.debug_images,
                  "Folder for a picture of each stage of each block")
@@ -244,10 +239,6 @@ int run_aerial(const std::string& program, std::vector<std::string> words) {
   const Result<WallLayerReport> report =
       write_wall_layer(options.map, walls, parameters_json(options, *extracted));
   if (!report) return fail(program, report.error());
-  if (!options.geojson.empty()) {
-    const Status written = write_text_file(options.geojson, geojson_of(walls));
-    if (!written) return fail(program, written.error());
-  }
   std::cout << summary_line(options, *report, walls, *extracted) << "\n";
   return kExitDone;
 }

@@ -35,7 +35,7 @@ def drawn_yard(width, height):
             kind = 0
             if 4 < x_m < 16 and 4 < y_m < 12:
                 kind = 2
-            elif 6 < x_m < 18 and 6 < y_m < 14:
+            elif max(x_m - 16, y_m - 12, 0) < min(x_m - 4, y_m - 4, 2):
                 kind = 1
             row += tints[kind][(x * 31 + y * 17) % 97]
         rows.append(bytes(row))
@@ -65,10 +65,15 @@ class Aerial(CommandTest):
     def setUp(self):
         super().setUp()
         self.map = self.folder / "town.map"
-        self.lines = self.folder / "walls.geojson"
 
     def aerial(self, *words):
         return run(MAPPER, "aerial", "--map", self.map, *words)
+
+    def walls(self):
+        """The walls of the map, each its two ends [longitude, latitude]."""
+        lines = self.folder / "walls.geojson"
+        self.expect_done(run(MAPPER, "export", "--map", self.map, "--layer", "walls", "--geojson", lines))
+        return [feature["geometry"]["coordinates"] for feature in json.loads(lines.read_text())["features"]]
 
     def yard(self, width=500, height=400):
         file = self.folder / "yard.tif"
@@ -90,10 +95,10 @@ class Aerial(CommandTest):
         self.expect_teaches(run(MAPPER, "--help"), "aerial")
 
     def test_walls_of_an_image(self):
-        result = self.aerial("--image", self.yard(), "--geojson", self.lines)
+        result = self.aerial("--image", self.yard())
         self.expect_done(result)
         self.assertRegex(result.stdout, r"sun at azimuth 3\d\d degrees \(estimated from the shadows\)")
-        walls = json.loads(self.lines.read_text())["features"]
+        walls = self.walls()
         self.assertGreater(len(walls), 60)  # of 80
         (parameters,), = self.in_map("SELECT parameters FROM layers WHERE name = 'walls'")
         parameters = json.loads(parameters)
@@ -101,7 +106,7 @@ class Aerial(CommandTest):
         self.assertAlmostEqual(parameters["sun"]["azimuth_deg"], 315, delta=12)
         bounds = parameters["bounds"]
         for wall in walls:
-            for longitude, latitude in wall["geometry"]["coordinates"]:
+            for longitude, latitude in wall:
                 self.assertTrue(bounds["west_deg"] < longitude < bounds["east_deg"])
                 self.assertTrue(bounds["south_deg"] < latitude < bounds["north_deg"])
 
@@ -115,13 +120,12 @@ class Aerial(CommandTest):
 
     def test_footprints_stay_as_they_are_and_the_image_adds_others(self):
         yard = self.yard()
-        self.expect_done(self.aerial("--image", yard, "--geojson", self.lines))
-        of_image = len(json.loads(self.lines.read_text())["features"])
-        self.expect_done(self.aerial("--image", yard, "--footprints", self.square(), "--geojson", self.lines))
-        self.assertEqual(len(json.loads(self.lines.read_text())["features"]), of_image + 4)
-        self.expect_done(self.aerial("--footprints", self.square(), "--geojson", self.lines))
-        ends = [tuple(end) for wall in json.loads(self.lines.read_text())["features"]
-                for end in wall["geometry"]["coordinates"]]
+        self.expect_done(self.aerial("--image", yard))
+        of_image = len(self.walls())
+        self.expect_done(self.aerial("--image", yard, "--footprints", self.square()))
+        self.assertEqual(len(self.walls()), of_image + 4)
+        self.expect_done(self.aerial("--footprints", self.square()))
+        ends = [tuple(end) for wall in self.walls() for end in wall]
         self.assertEqual(set(ends), {tuple(corner) for corner in SQUARE})
 
     def test_all_else_in_the_map_is_kept(self):

@@ -111,10 +111,11 @@ def mapped(mapper, image, *words):
     """Walls that the mapper finds in an image, and the box of the image."""
     with tempfile.TemporaryDirectory() as folder:
         map_file, lines = pathlib.Path(folder) / "walls.map", pathlib.Path(folder) / "walls.geojson"
-        result = subprocess.run([mapper, "aerial", "--image", image, "--map", map_file, "--geojson", lines, *words],
-                                capture_output=True, text=True, check=False)
-        if result.returncode != 0:
-            raise RuntimeError(result.stderr.strip())
+        for call in (("aerial", "--image", image, "--map", map_file, *words),
+                     ("export", "--map", map_file, "--layer", "walls", "--geojson", lines)):
+            result = subprocess.run([mapper, *call], capture_output=True, text=True, check=False)
+            if result.returncode != 0:
+                raise RuntimeError(result.stderr.strip())
         with sqlite3.connect(f"file:{map_file}?immutable=1", uri=True) as database:
             (parameters,), = database.execute("SELECT parameters FROM layers WHERE name = 'walls'")
         walls = [feature["geometry"]["coordinates"] for feature in json.loads(lines.read_text())["features"]]

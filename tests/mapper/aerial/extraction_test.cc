@@ -136,7 +136,7 @@ TEST_F(Extraction, DrawsEveryStage) {
   fs::create_directory(pictures);
   ASSERT_TRUE(extract_walls({file_, ""}, {}, 1, pictures, go_on).ok());
   for (const char* const name : {"1-picture", "2-edges", "3-shadows", "4-clutter", "5-lines",
-                                 "6-regions", "7-roofs", "8-roof-edges"}) {
+                                 "6-regions-1", "6-regions-4", "7-roofs", "8-roof-edges"}) {
     EXPECT_TRUE(fs::exists(pictures / ("block0-" + std::string(name) + ".png"))) << name;
   }
 }

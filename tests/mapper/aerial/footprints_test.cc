@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "mapper/aerial/wall_geojson.h"
 #include "schema/base/file.h"
 #include "tests/support/temp_folder.h"
 
@@ -105,16 +102,6 @@ TEST(Footprints, RepeatedPositionsMakeNoWall) {
   const auto walls = read(polygon("[[8, 49], [8, 49], [8.01, 49], [8.01, 49.01], [8, 49]]"));
   ASSERT_TRUE(walls.ok());
   EXPECT_EQ(walls->size(), 3U);
-}
-
-TEST(WallGeojson, HasALineAWall) {
-  const auto json = nlohmann::json::parse(
-      geojson_of({{{49, 8.4}, {49.001, 8.4}, 0.5}, {{49, 8.5}, {49, 8.501}, 0.25}}));
-  ASSERT_EQ(json["features"].size(), 2U);
-  EXPECT_EQ(json["features"][0]["geometry"]["type"], "LineString");
-  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"],
-            nlohmann::json::parse("[[8.4, 49.0], [8.4, 49.001]]"));
-  EXPECT_EQ(json["features"][1]["properties"]["sigma_m"], 0.25);
 }
 
 }  // namespace

@@ -47,8 +47,9 @@ TEST(LineGrid, FindsWhatIsNearAndNotWhatIsFar) {
   LineGrid grid(2);
   grid.add(0, line(0, 0, 30, 0));
   grid.add(1, line(0, 50, 30, 50));
-  EXPECT_EQ(grid.near(line(29, 1, 29, 1)), std::vector<std::size_t>{0});
-  EXPECT_EQ(grid.near(line(29, 1, 29, 49)), (std::vector<std::size_t>{0, 1}));
+  grid.add(2, line(0, 0.5, 30, 0.5));  // in the cells of the first
+  EXPECT_EQ(grid.near(line(29, 1, 29, 1)), (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(grid.near(line(29, 1, 29, 49)), (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_TRUE(grid.near(line(60, 20, 70, 20)).empty());
 }
 
@@ -94,7 +95,7 @@ TEST(Closure, AHouseStandsAndALoneLineDoesNot) {
 TEST(Closure, GoesOnUntilAllThatIsLeftStands) {
   ClosureSettings both_ends;
   both_ends.min_ends = 2;
-  const WallLines chain = {line(0, 0, 10, 0), line(10, 0, 10, 10), line(10, 10, 20, 10)};
+  const WallLines chain = {line(10, 0, 10, 10), line(0, 0, 10, 0), line(10, 10, 20, 10)};
   EXPECT_EQ(closed(chain, {}).size(), 3U);
   EXPECT_TRUE(closed(chain, both_ends).empty());
 }
@@ -121,7 +122,7 @@ TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
 
 TEST(Coverage, WhatIsKnownIsLeftOut) {
   const WallLines known = {line(0, 0, 10, 0)};
-  const WallLines lines = {line(1, 1, 9, 1.2), line(8, 0.5, 18, 0.5), line(5, 0, 5, 6),
+  const WallLines lines = {line(1, 1, 9, 1.2), line(8, 0.5, 18, 0.5), line(5, -1, 5, 1),
                            line(0, 3, 10, 3)};
   const WallLines others = not_covered(lines, known, {});
   ASSERT_EQ(others.size(), 3U);

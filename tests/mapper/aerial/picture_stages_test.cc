@@ -58,6 +58,24 @@ bool casts_shadow(const WallLine& wall, const Sun& sun) {
   return -right_of(direction_of(wall)).dot(shadow_direction(sun)) > 0.3;
 }
 
+// A roof of 12 x 8 m whose light changes by 12 grey values from end to end, without noise.
+Picture flat_roof_in_grass() {
+  Picture picture = drawn({{24, 20}, {}, {}, 0, {}});
+  picture.bgr.setTo(cv::Scalar(50, 120, 60));
+  for (int x = 60; x < 180; ++x) {
+    picture.bgr(cv::Rect(x, 60, 1, 80)).setTo(cv::Scalar::all(140 + (x - 60) / 10.0));
+  }
+  return picture;
+}
+
+// At one scale.
+RegionMap regions_of(const Picture& picture, double min_segment_m2 = 2) {
+  RegionSettings settings;
+  settings.scales = {60};
+  settings.min_segment_m2 = min_segment_m2;
+  return region_maps(picture, kShadowThreshold, {}, settings).front();
+}
+
 WallLines lines_of(const Picture& picture, const std::vector<cv::Mat>& maps,
                    const HoughSettings& settings = {}) {
   WallLines lines;
@@ -148,6 +166,17 @@ TEST(Clutter, GreyPicturesHaveNoGreen) {
   EXPECT_EQ(cv::countNonZero(green_mask(picture, {})), 0);
 }
 
+TEST(Clutter, WallsInGrassKeepTheirEdges) {
+  Picture picture = flat_roof_in_grass();
+  const cv::Mat green = green_mask(picture, {});
+  const cv::Mat inner = within(green, kPixelM, {});
+  cv::Mat edges = edge_maps(picture, gradient_of(picture, {}), {}).back();
+  const int all = cv::countNonZero(edges);
+  EXPECT_GT(all, 350);  // of the roof's outline
+  EXPECT_EQ(cv::countNonZero(edges & inner), 0);
+  EXPECT_GT(cv::countNonZero(inner), 9 * cv::countNonZero(green) / 10);
+}
+
 TEST(ProgressiveHough, FindsEveryWallTheLongestFirst) {
   const Picture picture = drawn({{40, 30}, {kHouse}, {}, 0, {}});
   const WallLines lines = lines_of(picture, edge_maps(picture, gradient_of(picture, {}), {}));
@@ -226,7 +255,7 @@ TEST(Segmentation, ColoursAndKindsPartRegions) {
 TEST(Regions, ARoofIsMeasured) {
   const House house{{20, 15}, 12, 8, 0};
   const Picture picture = drawn({{40, 30}, {house}, {300, 45}, 3, {}});
-  const RegionMap map = region_map(picture, kShadowThreshold, {}, {});
+  const RegionMap map = regions_of(picture);
   const auto roof =
       std::min_element(map.regions.begin(), map.regions.end(), [](const auto& a, const auto& b) {
         return std::abs(a.area_m2 - 96) < std::abs(b.area_m2 - 96);
@@ -243,6 +272,52 @@ TEST(Regions, ARoofIsMeasured) {
   EXPECT_GT(static_cast<double>(outward), 0.95 * static_cast<double>(roof->outline.size()));
 }
 
+TEST(Regions, ThereIsAMapAScaleAndTheCoarserHasFewerRegions) {
+  RegionSettings settings;
+  settings.scales = {20, 400};
+  Yard yard = one_house();
+  yard.trees = {{33, 24}};
+  const std::vector<RegionMap> maps = region_maps(drawn(yard), kShadowThreshold, {}, settings);
+  ASSERT_EQ(maps.size(), 2U);
+  EXPECT_GT(maps[0].label_count, maps[1].label_count);
+}
+
+TEST(Regions, ARoofOfSlowlyChangingLightIsOne) {
+  RegionSettings settings;
+  settings.scales = {60};
+  const RegionMap map = region_maps(flat_roof_in_grass(), kShadowThreshold, {}, settings).front();
+  ASSERT_EQ(map.regions.size(), 1U);
+  EXPECT_NEAR(map.regions.front().area_m2, 96, 10);
+}
+
+TEST(Roofs, ARoofThatOneScaleIsSureOfCounts) {
+  const cv::Mat sure(3, 3, CV_32FC1, cv::Scalar::all(1));
+  const cv::Mat none = cv::Mat::zeros(3, 3, CV_32FC1);
+  EXPECT_FLOAT_EQ(over_scales({none, sure, none, none}).at<float>(1, 1), 0.5F);
+  EXPECT_FLOAT_EQ(over_scales({sure, sure}).at<float>(1, 1), 1);
+}
+
+TEST(Roofs, LooksOfFewRoofsAreNotTrusted) {
+  Yard yard{{80, 60}, {}, {300, 45}, 3, {{40, 30}}};
+  for (const double x_m : {15.0, 40.0, 65.0}) yard.houses.push_back({{x_m, 12}, 12, 8, x_m});
+  const RegionMap map = regions_of(drawn(yard));
+  const std::vector<RoofFeatures> features = roof_features(map, {}, yard.sun);
+  const auto probabilities = [&](double looks_trust, double least_roofs) {
+    RoofSettings settings;
+    settings.looks_trust = looks_trust;
+    settings.least_roofs = least_roofs;
+    return roof_probabilities(map, features, settings);
+  };
+  const auto apart = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+  };
+  const std::vector<double> shape_alone = probabilities(0, 0);
+  EXPECT_GT(apart(probabilities(1, 0), shape_alone), 0.1);
+  EXPECT_LT(apart(probabilities(1, 1e6), shape_alone), 0.01);
+}
+
 TEST(Roofs, AHouseIsOneAndARoadIsNone) {
   Yard yard{{80, 60},
             {{{20, 15}, 12, 8, 20}, {{55, 40}, 14, 9, 70}, {{60, 15}, 10, 8, 0}},
@@ -251,9 +326,7 @@ TEST(Roofs, AHouseIsOneAndARoadIsNone) {
             {}};
   Picture picture = drawn(yard);
   cv::line(picture.bgr, {0, 350}, {799, 420}, cv::Scalar(125, 125, 125), 50);
-  RegionSettings whole_roofs;
-  whole_roofs.segmentation.min_region_m2 = 6;
-  const RegionMap map = region_map(picture, kShadowThreshold, {}, whole_roofs);
+  const RegionMap map = regions_of(picture, 6);
   WallLines walls;
   for (const House& house : yard.houses) {
     const WallLines of_house = walls_of(house);
@@ -293,15 +366,29 @@ TEST(SunEvidence, ShadowsTellTheAzimuth) {
       yard.houses.push_back({{x_m, 45}, 10, 8, -x_m});
     }
     SunEvidence evidence;
-    evidence.add(region_map(drawn(yard), kShadowThreshold, {}, {}));
+    evidence.add(regions_of(drawn(yard)));
     ASSERT_TRUE(evidence.azimuth_deg().has_value());
-    EXPECT_LT(std::abs(std::remainder(*evidence.azimuth_deg() - azimuth_deg, 360)), 15);
+    EXPECT_LT(std::abs(std::remainder(*evidence.azimuth_deg() - azimuth_deg, 360)), 6);
+  }
+}
+
+TEST(SunEvidence, HousesThatAllStandOneWayTellItToo) {
+  for (const double azimuth_deg : {95.0, 140.0, 185.0}) {
+    Yard yard{{80, 60}, {}, {azimuth_deg, 45}, 4, {}};
+    for (const double x_m : {15.0, 40.0, 65.0}) {
+      yard.houses.push_back({{x_m, 15}, 14, 7, -30});
+      yard.houses.push_back({{x_m, 45}, 14, 7, -30});
+    }
+    SunEvidence evidence;
+    evidence.add(regions_of(drawn(yard)));
+    ASSERT_TRUE(evidence.azimuth_deg().has_value());
+    EXPECT_NEAR(*evidence.azimuth_deg(), azimuth_deg, 5);
   }
 }
 
 TEST(SunEvidence, NothingIsKnownWithoutShadows) {
   SunEvidence evidence;
-  evidence.add(region_map(drawn({{40, 30}, {}, {}, 0, {}}), kShadowThreshold, {}, {}));
+  evidence.add(regions_of(drawn({{40, 30}, {}, {}, 0, {}})));
   EXPECT_FALSE(evidence.azimuth_deg().has_value());
 }
 
