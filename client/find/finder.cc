@@ -106,7 +106,7 @@ Finder::~Finder() = default;
 Finder::Finder(Finder&&) noexcept = default;
 Finder& Finder::operator=(Finder&&) noexcept = default;
 
-void Finder::observe(const WheelReading& reading) { impl_->wheels.add(reading); }
+void Finder::observe(const Odometry& reading) { impl_->wheels.add(reading); }
 
 FindFix Finder::find(const cv::Mat& gray, double timestamp_s) {
   const WheelMotion motion = impl_->wheels.motion_until(timestamp_s);

@@ -60,7 +60,7 @@ class Finder {
   Finder& operator=(Finder&&) noexcept;
 
   // Readings of the wheels up to a frame are told before it.
-  void observe(const WheelReading& reading);
+  void observe(const Odometry& reading);
 
   // The fix of the next frame. REQUIRES: timestamps ascend strictly; `gray` is CV_8UC1, not empty.
   FindFix find(const cv::Mat& gray, double timestamp_s);

@@ -7,7 +7,7 @@
 
 namespace milepost {
 
-void WheelLog::add(const WheelReading& reading) {
+void WheelLog::add(const Odometry& reading) {
   if (!std::isfinite(reading.timestamp_s) || !std::isfinite(reading.speed_mps) ||
       !std::isfinite(reading.yaw_rate_dps)) {
     return;

@@ -8,13 +8,11 @@
 
 namespace milepost {
 
-using WheelReading = Odometry;
-
 // Adds up readings, each of which holds from its time to the next one's.
 class WheelLog {
  public:
   // A reading that is not finite, or not later than the one before, is left out.
-  void add(const WheelReading& reading);
+  void add(const Odometry& reading);
 
   // The motion since the last call, up to `timestamp_s`; the first call begins at its own time.
   // Readings later than `timestamp_s` must not have been added.
@@ -23,7 +21,7 @@ class WheelLog {
  private:
   void advance(double timestamp_s);
 
-  std::optional<WheelReading> latest_;
+  std::optional<Odometry> latest_;
   std::optional<double> until_s_;  // up to which `motion_` is added up
   WheelMotion motion_;
 };
