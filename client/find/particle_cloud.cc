@@ -45,24 +45,34 @@ ParticleCloud cloud_about(const StartBelief& start, std::size_t count, Random& r
 }
 
 std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const MotionNoise& noise,
-                       const WallIndex& walls, const PlanBox& area, Random& random) {
+                       const WallIndex& walls, const PlanBox& area, Crossing crossing,
+                       Random& random) {
   std::normal_distribution<double> normal;
   const double root_s = std::sqrt(motion.duration_s);
   const double along_sigma_m =
       std::hypot(noise.along_m * root_s, noise.along_part * motion.distance_m);
   const double turn_sigma_rad = noise.turn_rad * root_s;
-  std::size_t drawn_anew = 0;
+  std::size_t crossed = 0;
+  ParticleCloud others;
   for (Particle& particle : cloud) {
     const PlanPose before = particle.pose;
     const double along_m = motion.distance_m + along_sigma_m * normal(random);
     const double turn_rad = motion.turn_rad + turn_sigma_rad * normal(random);
     particle.pose = moved(before, along_m, turn_rad);
-    if (area.contains(particle.pose.enu_m) && !walls.is_crossed(before.enu_m, particle.pose.enu_m))
+    if (area.contains(particle.pose.enu_m) &&
+        !walls.is_crossed(before.enu_m, particle.pose.enu_m)) {
+      if (crossing == Crossing::dropped) others.push_back(particle);
       continue;
-    particle.pose = uniform_pose(area, random);
-    ++drawn_anew;
+    }
+    if (crossing == Crossing::drawn_anew) particle.pose = uniform_pose(area, random);
+    ++crossed;
   }
-  return drawn_anew;
+  if (others.empty()) return crossed;
+  double total = 0;
+  for (const Particle& particle : others) total += particle.weight;
+  for (Particle& particle : others) particle.weight /= total;
+  cloud = std::move(others);
+  return crossed;
 }
 
 double weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods) {

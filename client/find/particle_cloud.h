@@ -40,10 +40,17 @@ PlanPose uniform_pose(const PlanBox& area, Random& random);
 ParticleCloud uniform_cloud(std::size_t count, const PlanBox& area, Random& random);
 ParticleCloud cloud_about(const StartBelief& start, std::size_t count, Random& random);
 
-// Eq. 1 for each particle, with noise of its own. A particle that goes through a wall or leaves the
-// area is drawn anew, anywhere in it. Returns how many were.
+// What becomes of a particle that goes through a wall or leaves the area.
+enum class Crossing {
+  drawn_anew,  // anywhere in the area: the paper's, for a vehicle that may be anywhere
+  dropped,     // its weight goes to the others; for one that is known to be about a place
+};
+
+// Eq. 1 for each particle, with noise of its own. Returns how many crossed a wall or the border.
+// Where all do, none is dropped.
 std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const MotionNoise& noise,
-                       const WallIndex& walls, const PlanBox& area, Random& random);
+                       const WallIndex& walls, const PlanBox& area, Crossing crossing,
+                       Random& random);
 
 // Multiplies weights by e^log_likelihoods[i] and makes them add up to 1. The log of the cloud's own
 // likelihood: of the weighted mean, where the weights added up to 1 before.

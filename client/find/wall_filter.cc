@@ -40,6 +40,13 @@ constexpr double kMaxChallengedPart = 0.5;
 constexpr double kBinM = 1;
 constexpr double kBinRad = 5 * kRadPerDeg;
 
+// Where the start is known, no other street is meant.
+WatchSettings watch_settings(const FilterSettings& settings) {
+  WatchSettings watch = settings.watch;
+  if (settings.start) watch.found_straight_m = watch.found_way_m;
+  return watch;
+}
+
 }  // namespace
 
 WallFilter::WallFilter(const WallIndex& walls, const PlanBox& area, const FilterSettings& settings)
@@ -49,7 +56,7 @@ WallFilter::WallFilter(const WallIndex& walls, const PlanBox& area, const Filter
       random_(settings.seed),
       cloud_(settings.start ? cloud_about(*settings.start, settings.particles, random_)
                             : uniform_cloud(settings.particles, area, random_)),
-      watch_(settings.watch),
+      watch_(watch_settings(settings)),
       history_(settings.history),
       is_started_(settings.start.has_value()) {}
 
@@ -57,7 +64,9 @@ Found WallFilter::update(const WallObservation& observation, const WheelMotion& 
   const bool is_ours = settings_.method == FindMethod::combined;
   way_m_ += std::abs(motion.distance_m);
   if (std::abs(motion.distance_m) > kStandsM || std::abs(motion.turn_rad) > kStandsRad) {
-    move_cloud(cloud_, motion, is_ours ? kWheelNoise : kPaperNoise, walls_, area_, random_);
+    const bool is_about_start = is_ours && settings_.start && !watch_.was_found();
+    move_cloud(cloud_, motion, is_ours ? kWheelNoise : kPaperNoise, walls_, area_,
+               is_about_start ? Crossing::dropped : Crossing::drawn_anew, random_);
   }
   const bool is_sight = history_.add(observation, motion);
   if (is_ours && !is_started_ && !observation.beams.empty() && !observation.sections.empty()) {
@@ -173,7 +182,8 @@ void WallFilter::resample() {
                         : settings_.particles;
   const auto count = static_cast<double>(cloud_.size());
   const bool is_uneven = effective_count(cloud_) < count / 2;
-  if (is_uneven || cloud_.size() > enough) cloud_ = resampled(cloud_, enough, random_);
+  const bool are_few = cloud_.size() < enough / 2;
+  if (is_uneven || are_few || cloud_.size() > enough) cloud_ = resampled(cloud_, enough, random_);
 }
 
 }  // namespace milepost

@@ -60,7 +60,7 @@ TEST(ParticleCloud, WithoutNoiseAllMoveAlike) {
   const WallIndex walls({{{-50, 90}, {50, 90}, 0.1}});
   const PlanBox area{{-100, -100}, {100, 100}};
   ParticleCloud cloud(3, {{{0, 0}, 0}, 1.0 / 3});
-  EXPECT_EQ(move_cloud(cloud, {1, 10, 0.2}, {}, walls, area, random), 0U);
+  EXPECT_EQ(move_cloud(cloud, {1, 10, 0.2}, {}, walls, area, Crossing::drawn_anew, random), 0U);
   for (const Particle& particle : cloud) {
     EXPECT_NEAR(particle.pose.enu_m.x(), 10 * std::sin(0.1), 1e-12);
     EXPECT_NEAR(particle.pose.heading_rad, 0.2, 1e-12);
@@ -72,7 +72,7 @@ TEST(ParticleCloud, NoiseGrowsWithTimeAndWay) {
   const WallIndex walls({{{-50, 900}, {50, 900}, 0.1}});
   const PlanBox area{{-1000, -1000}, {1000, 1000}};
   ParticleCloud cloud(4000, {{{0, 0}, 0}, 1.0 / 4000});
-  move_cloud(cloud, {4, 100, 0}, {0.1, 0.03, 0.01}, walls, area, random);
+  move_cloud(cloud, {4, 100, 0}, {0.1, 0.03, 0.01}, walls, area, Crossing::drawn_anew, random);
   double along2 = 0;
   double turn2 = 0;
   for (const Particle& particle : cloud) {
@@ -89,7 +89,7 @@ TEST(ParticleCloud, ThoseThatCrossAWallOrLeaveAreDrawnAnew) {
   const WallIndex walls({{{-1, 5}, {1, 5}, 0.1}});
   const PlanBox area{{-50, -50}, {50, 50}};
   ParticleCloud cloud(100, {{{0, 0}, 0}, 0.01});
-  EXPECT_EQ(move_cloud(cloud, {1, 6, 0}, {}, walls, area, random), 100U);
+  EXPECT_EQ(move_cloud(cloud, {1, 6, 0}, {}, walls, area, Crossing::drawn_anew, random), 100U);
   int beyond = 0;
   for (const Particle& particle : cloud) {
     EXPECT_TRUE(area.contains(particle.pose.enu_m));
@@ -97,7 +97,22 @@ TEST(ParticleCloud, ThoseThatCrossAWallOrLeaveAreDrawnAnew) {
   }
   EXPECT_GT(beyond, 80);
   ParticleCloud leaving(10, {{{0, 48}, 0}, 0.1});
-  EXPECT_EQ(move_cloud(leaving, {1, 6, 0}, {}, walls, area, random), 10U);
+  EXPECT_EQ(move_cloud(leaving, {1, 6, 0}, {}, walls, area, Crossing::drawn_anew, random), 10U);
+}
+
+TEST(ParticleCloud, WhereTheStartIsKnownThoseThatCrossAWallAreDropped) {
+  Random random(1);
+  const WallIndex walls({{{-1, 5}, {1, 5}, 0.1}});
+  const PlanBox area{{-50, -50}, {50, 50}};
+  ParticleCloud cloud = {{{{0, 0}, 0}, 0.5}, {{{10, 0}, 0}, 0.3}, {{{20, 0}, 0}, 0.2}};
+  EXPECT_EQ(move_cloud(cloud, {1, 6, 0}, {}, walls, area, Crossing::dropped, random), 1U);
+  ASSERT_EQ(cloud.size(), 2U);
+  EXPECT_EQ(cloud[0].pose.enu_m, Eigen::Vector2d(10, 6));
+  EXPECT_NEAR(cloud[0].weight, 0.6, 1e-12);
+  EXPECT_NEAR(cloud[1].weight, 0.4, 1e-12);
+  ParticleCloud all(4, {{{0, 0}, 0}, 0.25});
+  EXPECT_EQ(move_cloud(all, {1, 6, 0}, {}, walls, area, Crossing::dropped, random), 4U);
+  EXPECT_EQ(all.size(), 4U);
 }
 
 TEST(ParticleCloud, WeighingMultipliesAndNormalizes) {

@@ -121,6 +121,20 @@ TEST_F(WallFilterTest, KeepsAStartThatIsKnown) {
   EXPECT_GT(outcome.found, 10);
 }
 
+// Nothing is looked for elsewhere, whatever goes through walls, as long as it was not found.
+TEST_F(WallFilterTest, AStartThatIsKnownIsNotLookedForElsewhere) {
+  drive(12);
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{3, 5}, 0.1}, 4, 0.2};
+  PlanBox area = walls_.bounds();
+  WallFilter filter(walls_, area, settings);
+  for (const Step& step : steps_) filter.update(step.observation, step.motion);
+  for (const Particle& particle : filter.particles()) {
+    EXPECT_LT((particle.pose.enu_m - pose_.enu_m).norm(), 25);
+  }
+  EXPECT_EQ(filter.particles().size(), settings.particles);
+}
+
 TEST_F(WallFilterTest, ThePapersMethodKeepsAStartThatIsKnown) {
   drive_round_the_corner();
   FilterSettings settings = seeded(1);
