@@ -40,10 +40,12 @@ constexpr double kMaxChallengedPart = 0.5;
 constexpr double kBinM = 1;
 constexpr double kBinRad = 5 * kRadPerDeg;
 
-// Where the start is known, no other street is meant.
+// Where the start is known, no other street is meant, and less way is enough.
+constexpr double kKnownStartWayM = 20;
+
 WatchSettings watch_settings(const FilterSettings& settings) {
   WatchSettings watch = settings.watch;
-  if (settings.start) watch.found_straight_m = watch.found_way_m;
+  if (settings.start) watch.found_way_m = watch.found_straight_m = kKnownStartWayM;
   return watch;
 }
 
