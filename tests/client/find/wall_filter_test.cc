@@ -123,16 +123,16 @@ TEST_F(WallFilterTest, KeepsAStartThatIsKnown) {
 
 // Nothing is looked for elsewhere, whatever goes through walls, as long as it was not found.
 TEST_F(WallFilterTest, AStartThatIsKnownIsNotLookedForElsewhere) {
-  drive(12);
+  drive(6);
   FilterSettings settings = seeded(1);
-  settings.start = StartBelief{{{3, 5}, 0.1}, 4, 0.2};
+  settings.start = StartBelief{{{1, 3}, 0}, 2, 1.5};
   PlanBox area = walls_.bounds();
   WallFilter filter(walls_, area, settings);
   for (const Step& step : steps_) filter.update(step.observation, step.motion);
   for (const Particle& particle : filter.particles()) {
     EXPECT_LT((particle.pose.enu_m - pose_.enu_m).norm(), 25);
   }
-  EXPECT_EQ(filter.particles().size(), settings.particles);
+  EXPECT_GE(filter.particles().size(), settings.particles / 2);
 }
 
 TEST_F(WallFilterTest, ThePapersMethodKeepsAStartThatIsKnown) {
