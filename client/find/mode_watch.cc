@@ -1,5 +1,6 @@
 #include "client/find/mode_watch.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace milepost {
@@ -25,8 +26,27 @@ const char* name_of(FindStatus status) {
   return "";
 }
 
+void ModeWatch::drive(const WheelMotion& motion) {
+  const Turned before = turns_.empty() ? Turned{} : turns_.back();
+  turns_.push_back(
+      {before.driven_m + std::abs(motion.distance_m), before.turned_rad + motion.turn_rad});
+  const double since_m = turns_.back().driven_m - settings_.found_straight_m;
+  while (turns_.front().driven_m < since_m) turns_.pop_front();
+}
+
+bool ModeWatch::has_bend() const {
+  const auto [least, most] = std::ranges::minmax(turns_, {}, &Turned::turned_rad);
+  return most.turned_rad - least.turned_rad >= settings_.found_bend_rad;
+}
+
+bool ModeWatch::is_enough() const {
+  const double enough_m = has_bend() ? settings_.found_way_m : settings_.found_straight_m;
+  return held_.way_m >= enough_m && held_.explained_m >= settings_.found_explained * held_.way_m;
+}
+
 FindStatus ModeWatch::observe(const BeliefMode& mode, std::optional<double> explained,
                               const WheelMotion& motion) {
+  drive(motion);
   if (explained) {
     lately_ += kLatelyRate * (*explained - lately_);
     usually_ += kUsuallyRate * (*explained - usually_);
@@ -37,13 +57,13 @@ FindStatus ModeWatch::observe(const BeliefMode& mode, std::optional<double> expl
           settings_.place_m;
   place_ = mode.pose;
   const double least_mass = found_ ? settings_.kept_mass : settings_.found_mass;
-  const double least_explained = found_ ? settings_.kept_explained : settings_.found_explained;
-  const bool holds = stays && mode.mass >= least_mass && lately_ >= least_explained;
-  way_m_ = holds ? way_m_ + std::abs(motion.distance_m) : 0;
-  turn_rad_ = holds ? turn_rad_ + motion.turn_rad : 0;
-  has_bend_ = holds && (has_bend_ || std::abs(turn_rad_) >= settings_.found_bend_rad);
-  found_ = holds &&
-           (found_ || way_m_ >= (has_bend_ ? settings_.found_way_m : settings_.found_straight_m));
+  const bool holds = stays && mode.mass >= least_mass && lately_ >= settings_.kept_explained;
+  if (!holds) held_ = {};
+  if (holds && explained) {
+    held_.way_m += std::abs(motion.distance_m);
+    held_.explained_m += std::abs(motion.distance_m) * *explained;
+  }
+  found_ = holds && (found_ || is_enough());
   was_found_ = was_found_ || found_;
   if (!found_) return was_found_ ? FindStatus::lost : FindStatus::initializing;
   return explained ? FindStatus::tracking : FindStatus::predicted;

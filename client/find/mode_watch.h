@@ -2,6 +2,7 @@
 // is seen, for some way.
 #pragma once
 
+#include <deque>
 #include <optional>
 
 #include "client/find/mean_shift.h"
@@ -19,14 +20,14 @@ enum class FindStatus {
 const char* name_of(FindStatus status);
 
 struct WatchSettings {
-  double found_mass = 0.9;       // of the mode, to be found
-  double found_explained = 0.5;  // of what is seen, lately
-  double found_way_m = 40;       // so far both must hold, in one place, with a bend on the way
-  double found_bend_rad = 0.8;   // so much of a turn
-  double found_straight_m = 80;  // ... or so far without: one straight street looks like another
-  double kept_mass = 0.5;        // to stay found
-  double kept_explained = 0.2;
-  double place_m = 5;  // a mode that jumps farther is another place
+  double found_mass = 0.9;        // of the mode, to be found
+  double found_explained = 0.65;  // of what was seen while it held
+  double found_way_m = 40;        // so far both must hold, in one place, if there was a bend
+  double found_bend_rad = 0.8;    // so much of a turn, within the last found_straight_m
+  double found_straight_m = 80;   // ... or so far without: one straight street looks like another
+  double kept_mass = 0.5;         // to stay found
+  double kept_explained = 0.2;    // of what is seen lately, also while it is not yet found
+  double place_m = 5;             // a mode that jumps farther is another place
 };
 
 class ModeWatch {
@@ -46,11 +47,24 @@ class ModeWatch {
   bool is_doubtful() const;
 
  private:
+  // The way over which one place held, without that on which nothing was seen.
+  struct Held {
+    double way_m = 0;
+    double explained_m = 0;
+  };
+  struct Turned {
+    double driven_m = 0;
+    double turned_rad = 0;  // since the start of the drive
+  };
+
+  void drive(const WheelMotion& motion);
+  bool has_bend() const;
+  bool is_enough() const;
+
   WatchSettings settings_;
   std::optional<PlanPose> place_;
-  double way_m_ = 0;  // over which the mode holds, and what it turned on it
-  double turn_rad_ = 0;
-  bool has_bend_ = false;
+  Held held_;
+  std::deque<Turned> turns_;  // of the last found_straight_m, the oldest first
   double lately_ = 0;
   double usually_ = 0;
   bool found_ = false;

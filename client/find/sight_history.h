@@ -11,8 +11,8 @@
 namespace milepost {
 
 struct HistorySettings {
-  double step_m = 3;          // at least so far apart are the sights that are kept
-  double way_m = 40;          // older ones are forgotten
+  double step_m = 5;          // at least so far apart are the sights that are kept
+  double way_m = 100;         // older ones are forgotten
   std::size_t each_beam = 3;  // one of so many is kept, and stands for them
 };
 

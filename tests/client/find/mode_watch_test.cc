@@ -23,6 +23,19 @@ class ModeWatchTest : public ::testing::Test {
     return status;
   }
 
+  // Of one that turns in its tenth step, and whose place holds the belief after some steps.
+  static int steps_until_found(double turn_rad, int uncertain_steps = 0) {
+    ModeWatch watch{WatchSettings{}};
+    PlanPose pose;
+    int count = 0;
+    while (!watch.is_found() && count < 150) {
+      const WheelMotion motion{0.2, 2, ++count == 10 ? turn_rad : 0};
+      pose = moved(pose, motion.distance_m, motion.turn_rad);
+      watch.observe({pose, count > uncertain_steps ? 0.95 : 0.5, 0.3, 0.01}, 0.8, motion);
+    }
+    return count;
+  }
+
   ModeWatch watch_{WatchSettings{}};
   double north_m_ = 0;
   double jump_east_m_ = 0;
@@ -36,21 +49,32 @@ TEST_F(ModeWatchTest, OnePlaceThatExplainsWhatIsSeenForSomeWayIsFound) {
 
 // One straight street looks like another; a bend tells them apart.
 TEST_F(ModeWatchTest, LessWayIsNeededRoundABend) {
-  const auto steps_until_found = [](double turn_rad) {
-    ModeWatch watch{WatchSettings{}};
-    PlanPose pose;
-    int count = 0;
-    while (!watch.is_found() && count < 100) {
-      const WheelMotion motion{0.2, 2, ++count == 15 ? turn_rad : 0};
-      pose = moved(pose, motion.distance_m, motion.turn_rad);
-      watch.observe({pose, 0.95, 0.3, 0.01}, 0.8, motion);
-    }
-    return count;
-  };
-  EXPECT_LT(steps_until_found(1), 32);
+  EXPECT_LT(steps_until_found(1), 25);
   EXPECT_EQ(steps_until_found(-1), steps_until_found(1));
-  EXPECT_GT(steps_until_found(0.5), 45);
+  EXPECT_GT(steps_until_found(0.5), 35);
   EXPECT_EQ(steps_until_found(0), steps_until_found(0.5));
+}
+
+// What holds the belief after a bend was weighed on the way through it.
+TEST_F(ModeWatchTest, ABendBeforeThePlaceHoldsTheBeliefCounts) {
+  EXPECT_LT(steps_until_found(1, 15), 40);
+  EXPECT_GT(steps_until_found(0, 15), 50);
+  EXPECT_GT(steps_until_found(1, 60), 60 + 35) << "that bend is far behind";
+}
+
+TEST_F(ModeWatchTest, OneThatExplainsHalfIsNotFound) {
+  EXPECT_EQ(steps(100, 0.95, 0.5), FindStatus::initializing);
+}
+
+// All of the way while a place holds counts, not only the last of it.
+TEST_F(ModeWatchTest, AStretchThatExplainsLittleIsMadeUpFor) {
+  EXPECT_EQ(steps(35, 0.95, 0.9), FindStatus::initializing);
+  EXPECT_EQ(steps(8, 0.95, 0.3), FindStatus::tracking);
+}
+
+TEST_F(ModeWatchTest, WayThatShowsNothingFindsNothing) {
+  steps(20, 0.95, 0.9);
+  EXPECT_EQ(steps(100, 0.95, std::nullopt), FindStatus::initializing);
 }
 
 TEST_F(ModeWatchTest, AHalfOfTheBeliefIsNotEnough) {

@@ -28,7 +28,7 @@ class SightHistoryTest : public ::testing::Test {
     return kept;
   }
 
-  SightHistory history_{HistorySettings{}};
+  SightHistory history_{HistorySettings{.step_m = 3, .way_m = 40}};
   PlanPose pose_{{100, 200}, 0.7};
 };
 
