@@ -20,7 +20,7 @@ struct EvidenceSettings {
 
 // Log-likelihood for each metre of way over which such observations are made: points seen in frame
 // after frame on the same walls, by the same wheels, are hardly news.
-double evidence_per_m(const PlanPose& pose, const WallObservation& observation,
+double evidence_per_m(const PlanPose& pose, double wheel_scale, const WallObservation& observation,
                       const WallIndex& walls, const EvidenceSettings& settings);
 
 }  // namespace milepost

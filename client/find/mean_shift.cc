@@ -59,6 +59,7 @@ BeliefMode mode_about(const PlanPose& centre, const ParticleCloud& cloud,
   double sum_m2 = 0;
   double sum_rad = 0;
   double sum_rad2 = 0;
+  double sum_scale = 0;
   for (const Particle& particle : cloud) {
     const Eigen::Vector2d off_m = particle.pose.enu_m - centre.enu_m;
     const double turn = turn_rad(particle);
@@ -68,6 +69,7 @@ BeliefMode mode_about(const PlanPose& centre, const ParticleCloud& cloud,
     sum_m2 += particle.weight * off_m.squaredNorm();
     sum_rad += particle.weight * turn;
     sum_rad2 += particle.weight * turn * turn;
+    sum_scale += particle.weight * particle.wheel_scale;
   }
   BeliefMode mode{centre, mass, 0, 0};
   if (mass <= 0) return mode;
@@ -75,6 +77,7 @@ BeliefMode mode_about(const PlanPose& centre, const ParticleCloud& cloud,
   const double mean_rad = sum_rad / mass;
   mode.pose.enu_m += mean_m;
   mode.pose.heading_rad += mean_rad;
+  mode.wheel_scale = sum_scale / mass;
   mode.sigma_m = std::sqrt(std::max(0.0, (sum_m2 / mass - mean_m.squaredNorm()) / 2));
   mode.heading_sigma_rad = std::sqrt(std::max(0.0, sum_rad2 / mass - mean_rad * mean_rad));
   return mode;

@@ -12,6 +12,7 @@ struct BeliefMode {
   double mass = 0;     // of all weights, those within the kernel: (0, 1]
   double sigma_m = 0;  // of position, in each direction
   double heading_sigma_rad = 0;
+  double wheel_scale = 1;  // their weighted mean
 };
 
 struct ModeKernel {

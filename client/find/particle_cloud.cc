@@ -51,12 +51,15 @@ std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const Mo
   const double root_s = std::sqrt(motion.duration_s);
   const double along_sigma_m =
       std::hypot(noise.along_m * root_s, noise.along_part * motion.distance_m);
+  const double scale_sigma = noise.scale * std::sqrt(std::abs(motion.distance_m));
   const double turn_sigma_rad = noise.turn_rad * root_s;
   std::size_t crossed = 0;
   ParticleCloud others;
   for (Particle& particle : cloud) {
     const PlanPose before = particle.pose;
-    const double along_m = motion.distance_m + along_sigma_m * normal(random);
+    particle.wheel_scale += scale_sigma * normal(random);
+    const double along_m =
+        particle.wheel_scale * motion.distance_m + along_sigma_m * normal(random);
     const double turn_rad = motion.turn_rad + turn_sigma_rad * normal(random);
     particle.pose = moved(before, along_m, turn_rad);
     if (area.contains(particle.pose.enu_m) &&
@@ -86,6 +89,11 @@ double weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likeliho
   return best + std::log(total);
 }
 
+void draw_wheel_scales(ParticleCloud& cloud, double sigma, Random& random) {
+  std::normal_distribution<double> scale(1, sigma);
+  for (Particle& particle : cloud) particle.wheel_scale = scale(random);
+}
+
 void scatter_cloud(ParticleCloud& cloud, double sigma_m, double sigma_rad, Random& random) {
   std::normal_distribution<double> normal;
   for (Particle& particle : cloud) {
@@ -111,7 +119,7 @@ ParticleCloud resampled(const ParticleCloud& cloud, std::size_t count, Random& r
   chosen.reserve(count);
   while (chosen.size() < count) {
     while (at > passed && i + 1 < cloud.size()) passed += cloud[++i].weight;
-    chosen.push_back({cloud[i].pose, step});
+    chosen.push_back({cloud[i].pose, step, cloud[i].wheel_scale});
     at += step;
   }
   return chosen;

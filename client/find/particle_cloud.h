@@ -13,6 +13,7 @@ namespace milepost {
 struct Particle {
   PlanPose pose;
   double weight = 0;
+  double wheel_scale = 1;  // metres that it goes for each metre that the wheels tell
 };
 
 // Weights of a cloud add up to 1.
@@ -30,6 +31,7 @@ struct MotionNoise {
   double along_m = 0;     // per root of a second
   double along_part = 0;  // of its distance
   double turn_rad = 0;    // per root of a second
+  double scale = 0;       // of the wheels, per root of a metre
 };
 
 using Random = std::mt19937_64;
@@ -55,6 +57,9 @@ std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const Mo
 // Multiplies weights by e^log_likelihoods[i] and makes them add up to 1. The log of the cloud's own
 // likelihood: of the weighted mean, where the weights added up to 1 before.
 double weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods);
+
+// Draws the wheels' scale of each particle about 1.
+void draw_wheel_scales(ParticleCloud& cloud, double sigma, Random& random);
 
 // Moves each particle by noise of its own.
 void scatter_cloud(ParticleCloud& cloud, double sigma_m, double sigma_rad, Random& random);

@@ -28,8 +28,9 @@ std::vector<Beam> beams_of(std::span<const ScenePoint> points,
   return beams;
 }
 
-RangeAgreement range_agreement(const PlanPose& pose, std::span<const Beam> beams,
-                               const WallIndex& walls, const RangeSettings& settings) {
+RangeAgreement range_agreement(const PlanPose& pose, double wheel_scale,
+                               std::span<const Beam> beams, const WallIndex& walls,
+                               const RangeSettings& settings) {
   RangeAgreement agreement;
   for (const Beam& beam : beams) {
     const Eigen::Vector2d direction = direction_of(pose.heading_rad + beam.bearing_rad);
@@ -43,7 +44,7 @@ RangeAgreement range_agreement(const PlanPose& pose, std::span<const Beam> beams
     const Eigen::Vector2d along = (wall.end_m - wall.begin_m).normalized();
     const double cosine = direction.dot(along);
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    const double off_m = (beam.range_m - hit->range_m) * sine;
+    const double off_m = (wheel_scale * beam.range_m - hit->range_m) * sine;
     const double variance_m2 = std::pow(beam.range_sigma_m * sine, 2) +
                                std::pow(beam.range_m * settings.heading_sigma_rad * cosine, 2) +
                                wall.sigma_m * wall.sigma_m + settings.sigma_m * settings.sigma_m;

@@ -42,7 +42,9 @@ struct RangeAgreement {
   double explained = 0;  // share of the beams that end at a wall, within three sigma
 };
 
-RangeAgreement range_agreement(const PlanPose& pose, std::span<const Beam> beams,
-                               const WallIndex& walls, const RangeSettings& settings);
+// Ranges are the wheels' until they are multiplied by their scale.
+RangeAgreement range_agreement(const PlanPose& pose, double wheel_scale,
+                               std::span<const Beam> beams, const WallIndex& walls,
+                               const RangeSettings& settings);
 
 }  // namespace milepost

@@ -22,11 +22,12 @@ bool SightHistory::add(const WallObservation& observation, const WheelMotion& mo
   return true;
 }
 
-PlanPose SightHistory::pose_then(const PlanPose& now, const PastSight& sight) const {
+PlanPose SightHistory::pose_then(const PlanPose& now, double wheel_scale,
+                                 const PastSight& sight) const {
   // Headings are clockwise, Eigen's rotations are not.
   const double turned_rad = now.heading_rad - driven_.heading_rad;
   const Eigen::Rotation2Dd enu_from_driven(-turned_rad);
-  return {now.enu_m + enu_from_driven * (sight.driven.enu_m - driven_.enu_m),
+  return {now.enu_m + wheel_scale * (enu_from_driven * (sight.driven.enu_m - driven_.enu_m)),
           sight.driven.heading_rad + turned_rad};
 }
 

@@ -34,8 +34,9 @@ class SightHistory {
 
   const std::deque<PastSight>& sights() const { return sights_; }
   std::size_t each_beam() const { return settings_.each_beam; }
-  // Where a vehicle that is at `now` had the sight, as the wheels went.
-  PlanPose pose_then(const PlanPose& now, const PastSight& sight) const;
+  // Where a vehicle that is at `now` had the sight, as the wheels went: their metres are multiplied
+  // by their scale.
+  PlanPose pose_then(const PlanPose& now, double wheel_scale, const PastSight& sight) const;
 
  private:
   HistorySettings settings_;

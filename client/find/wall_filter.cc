@@ -13,7 +13,8 @@ namespace {
 
 // The paper, section IV, for its method; the second is for wheels as they are.
 constexpr MotionNoise kPaperNoise{0.1, 0, 5 * kRadPerDeg};
-constexpr MotionNoise kWheelNoise{0.1, 0.03, 1 * kRadPerDeg};
+constexpr MotionNoise kWheelNoise{0.1, 0.03, 1 * kRadPerDeg, 0.0005};
+constexpr double kWheelScaleSigma = 0.02;  // before anything is seen
 
 // Standing still, particles stay: noise would only spread them.
 constexpr double kStandsM = 0.01;
@@ -60,7 +61,11 @@ WallFilter::WallFilter(const WallIndex& walls, const PlanBox& area, const Filter
                             : uniform_cloud(settings.particles, area, random_)),
       watch_(watch_settings(settings)),
       history_(settings.history),
-      is_started_(settings.start.has_value()) {}
+      is_started_(settings.start.has_value()) {
+  if (settings_.method == FindMethod::combined) {
+    draw_wheel_scales(cloud_, kWheelScaleSigma, random_);
+  }
+}
 
 Found WallFilter::update(const WallObservation& observation, const WheelMotion& motion) {
   const bool is_ours = settings_.method == FindMethod::combined;
@@ -79,7 +84,7 @@ Found WallFilter::update(const WallObservation& observation, const WheelMotion& 
   if (!observation.beams.empty()) way_m_ = 0;
 
   const BeliefMode mode = densest_mode(cloud_, {});
-  const FindStatus status = watch_.observe(mode, explained_by(mode.pose, observation), motion);
+  const FindStatus status = watch_.observe(mode, explained_by(mode, observation), motion);
   if (is_ours && is_sight && !observation.sections.empty() && is_challenged()) {
     challenge(observation);
   }
@@ -105,7 +110,8 @@ void WallFilter::weigh(ParticleCloud& cloud, const WallObservation& observation,
     evidence.ranges = watch_.is_found() ? kSharp : kBroad;
     evidence.view_reach_m = settings_.view_reach_m;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      log_likelihoods[i] = way_m * evidence_per_m(cloud[i].pose, observation, walls_, evidence);
+      log_likelihoods[i] = way_m * evidence_per_m(cloud[i].pose, cloud[i].wheel_scale, observation,
+                                                  walls_, evidence);
     }
   }
   weigh_cloud(cloud, log_likelihoods);
@@ -121,8 +127,9 @@ double WallFilter::weigh_by_history(ParticleCloud& cloud) const {
   for (const PastSight& sight : history_.sights()) {
     const double way_m = kHistoryPart * std::min(sight.way_m, kMaxEvidenceWayM);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const PlanPose pose = history_.pose_then(cloud[i].pose, sight);
-      log_likelihoods[i] += way_m * evidence_per_m(pose, sight.observation, walls_, evidence);
+      const PlanPose pose = history_.pose_then(cloud[i].pose, cloud[i].wheel_scale, sight);
+      log_likelihoods[i] +=
+          way_m * evidence_per_m(pose, cloud[i].wheel_scale, sight.observation, walls_, evidence);
     }
   }
   return weigh_cloud(cloud, log_likelihoods);
@@ -131,18 +138,20 @@ double WallFilter::weigh_by_history(ParticleCloud& cloud) const {
 void WallFilter::start_from(const WallObservation& observation) {
   cloud_ = proposed_cloud(kStartCandidates * settings_.particles, observation, walls_, area_,
                           settings_.view_reach_m, random_);
+  draw_wheel_scales(cloud_, kWheelScaleSigma, random_);
   weigh(cloud_, observation, kCandidateWayM);
   is_started_ = true;
 }
 
-std::optional<double> WallFilter::explained_by(const PlanPose& pose,
+std::optional<double> WallFilter::explained_by(const BeliefMode& mode,
                                                const WallObservation& observation) const {
   if (settings_.method == FindMethod::combined) {
     if (observation.beams.empty()) return std::nullopt;
-    return range_agreement(pose, observation.beams, walls_, kSharp).explained;
+    return range_agreement(mode.pose, mode.wheel_scale, observation.beams, walls_, kSharp)
+        .explained;
   }
   if (observation.sections.empty()) return std::nullopt;
-  return orientation_importance(pose, observation.sections, walls_, settings_.view_reach_m);
+  return orientation_importance(mode.pose, observation.sections, walls_, settings_.view_reach_m);
 }
 
 // What is found is doubted only when it explains less than it used to; a known start is believed.
@@ -157,6 +166,7 @@ void WallFilter::challenge(const WallObservation& observation) {
   const std::size_t count = std::max<std::size_t>(1, settings_.particles / kParticlesPerChallenger);
   ParticleCloud challengers = proposed_cloud(kChallengerCandidates * count, observation, walls_,
                                              area_, settings_.view_reach_m, random_);
+  draw_wheel_scales(challengers, kWheelScaleSigma, random_);
   weigh(challengers, observation, kCandidateWayM);
   challengers = resampled(challengers, count, random_);
   weigh_by_history(challengers);

@@ -53,7 +53,7 @@ class WallFilter {
   void weigh(ParticleCloud& cloud, const WallObservation& observation, double way_m) const;
   double weigh_by_history(ParticleCloud& cloud) const;
   void start_from(const WallObservation& observation);
-  std::optional<double> explained_by(const PlanPose& pose,
+  std::optional<double> explained_by(const BeliefMode& mode,
                                      const WallObservation& observation) const;
   bool is_challenged() const;
   void challenge(const WallObservation& observation);

@@ -13,8 +13,8 @@ namespace {
 // Ahead of a camera that looks north, a wall 10 m away, from west to east.
 class EvidenceTest : public ::testing::Test {
  protected:
-  double evidence(const PlanPose& pose) const {
-    return evidence_per_m(pose, observation_, walls_, settings_);
+  double evidence(const PlanPose& pose, double wheel_scale = 1) const {
+    return evidence_per_m(pose, wheel_scale, observation_, walls_, settings_);
   }
 
   WallIndex walls_{{{{-30, 10}, {30, 10}, 0.1}}};
@@ -27,6 +27,11 @@ class EvidenceTest : public ::testing::Test {
 TEST_F(EvidenceTest, NothingSeenSaysNothing) {
   observation_ = {};
   EXPECT_EQ(evidence(pose_), 0);
+}
+
+TEST_F(EvidenceTest, RangesAreScaled) {
+  EXPECT_LT(evidence(pose_, 1.3), evidence(pose_) - 0.02);
+  EXPECT_NEAR(evidence({{0, -2}, 0}, 1.2), evidence(pose_), 1e-3);
 }
 
 TEST_F(EvidenceTest, BothWaysOfSeeingCount) {

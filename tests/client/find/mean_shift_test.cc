@@ -41,6 +41,12 @@ TEST(MeanShift, OppositeHeadingsAreTwoPlaces) {
   EXPECT_NEAR(std::cos(mode.pose.heading_rad), -1, 0.01);
 }
 
+TEST(MeanShift, TheScaleOfTheWheelsIsThatOfThePlace) {
+  const ParticleCloud cloud = {
+      {{{0, 0}, 0}, 0.4, 1.1}, {{{1, 0}, 0}, 0.2, 0.8}, {{{100, 0}, 0}, 0.4, 0.5}};
+  EXPECT_NEAR(densest_mode(cloud, {}).wheel_scale, 1, 1e-9);
+}
+
 TEST(MeanShift, HeadingsMeetAtNorth) {
   Random random(1);
   ParticleCloud cloud;

@@ -109,7 +109,8 @@ TEST_F(ModeWatchTest, WhatWasFoundIsLostByAJumpAndFoundAgain) {
   steps(60, 0.95, 0.8);
   jump_east_m_ = 40;
   EXPECT_EQ(step(0.95, 0.8), FindStatus::lost);
-  EXPECT_EQ(steps(45, 0.95, 0.8), FindStatus::tracking);
+  EXPECT_EQ(steps(30, 0.95, 0.8), FindStatus::lost);
+  EXPECT_EQ(steps(15, 0.95, 0.8), FindStatus::tracking);
 }
 
 TEST_F(ModeWatchTest, LessIsNeededToStayThanToBeFound) {

@@ -84,6 +84,43 @@ TEST(ParticleCloud, NoiseGrowsWithTimeAndWay) {
 }
 
 // Section IV, last sentence on the filter: those that move through a building are drawn anew.
+TEST(ParticleCloud, EachGoesByItsOwnScaleOfTheWheels) {
+  Random random(1);
+  const WallIndex walls({});
+  const PlanBox area{{-50, -50}, {50, 50}};
+  ParticleCloud cloud = {{{{0, 0}, 0}, 0.5, 1.1}, {{{0, 0}, 0}, 0.5, 0.9}};
+  move_cloud(cloud, {1, 10, 0}, {}, walls, area, Crossing::drawn_anew, random);
+  EXPECT_NEAR(cloud[0].pose.enu_m.y(), 11, 1e-9);
+  EXPECT_NEAR(cloud[1].pose.enu_m.y(), 9, 1e-9);
+  EXPECT_EQ(cloud[0].wheel_scale, 1.1);
+}
+
+TEST(ParticleCloud, ScalesAreDrawnAndWanderWithTheWay) {
+  Random random(1);
+  const WallIndex walls({});
+  const PlanBox area{{-500, -500}, {500, 500}};
+  ParticleCloud cloud(4000, {{{0, 0}, 0}, 1.0 / 4000});
+  const auto spread = [&] {
+    double sum = 0;
+    for (const Particle& particle : cloud) sum += std::pow(particle.wheel_scale - 1, 2);
+    return std::sqrt(sum / 4000);
+  };
+  MotionNoise noise;
+  noise.scale = 0.01;
+  move_cloud(cloud, {1, 0, 0}, noise, walls, area, Crossing::drawn_anew, random);
+  EXPECT_EQ(spread(), 0);
+  move_cloud(cloud, {1, 16, 0}, noise, walls, area, Crossing::drawn_anew, random);
+  EXPECT_NEAR(spread(), 0.04, 0.002);
+  draw_wheel_scales(cloud, 0.1, random);
+  EXPECT_NEAR(spread(), 0.1, 0.005);
+}
+
+TEST(ParticleCloud, ResamplingKeepsTheScaleOfTheWheels) {
+  Random random(1);
+  const ParticleCloud cloud = {{{{0, 0}, 0}, 0.999, 1.1}, {{{0, 0}, 0}, 0.001, 0.9}};
+  EXPECT_EQ(resampled(cloud, 1, random).front().wheel_scale, 1.1);
+}
+
 TEST(ParticleCloud, ThoseThatCrossAWallOrLeaveAreDrawnAnew) {
   Random random(1);
   const WallIndex walls({{{-1, 5}, {1, 5}, 0.1}});

@@ -45,15 +45,24 @@ TEST(RangeAgreement, IsBestWhereTheBeamsWereSeen) {
   const PlanPose truth{{1, 30}, 0.1};
   const std::vector<Beam> beams = beams_at(truth, walls);
   ASSERT_GT(beams.size(), 20U);
-  const RangeAgreement best = range_agreement(truth, beams, walls, {});
+  const RangeAgreement best = range_agreement(truth, 1, beams, walls, {});
   EXPECT_NEAR(best.log_likelihood, 0, 1e-9);
   EXPECT_EQ(best.explained, 1);
   for (const PlanPose& other :
        {PlanPose{{3, 30}, 0.1}, PlanPose{{-1, 30}, 0.1}, PlanPose{{1, 40}, 0.1},
         PlanPose{{1, 20}, 0.1}, PlanPose{{1, 30}, 0.3}, PlanPose{{1, 30}, 3.2}}) {
-    EXPECT_LT(range_agreement(other, beams, walls, {}).log_likelihood, best.log_likelihood - 2)
+    EXPECT_LT(range_agreement(other, 1, beams, walls, {}).log_likelihood, best.log_likelihood - 2)
         << other.enu_m.transpose() << " " << other.heading_rad;
   }
+}
+
+TEST(RangeAgreement, MetresAreTheWheelsUntilScaled) {
+  const WallIndex walls(testing::bent_street());
+  const PlanPose truth{{1, 30}, 0.1};
+  std::vector<Beam> beams = beams_at(truth, walls);
+  for (Beam& beam : beams) beam.range_m /= 1.2;
+  EXPECT_NEAR(range_agreement(truth, 1.2, beams, walls, {}).log_likelihood, 0, 1e-9);
+  EXPECT_LT(range_agreement(truth, 1, beams, walls, {}).log_likelihood, -2);
 }
 
 // A tree before a wall is less of a surprise than a point behind one.
@@ -62,7 +71,7 @@ TEST(RangeAgreement, NearerIsLikelierThanFarther) {
   const PlanPose pose;
   const auto of_range = [&](double range_m) {
     const std::vector<Beam> beams = {{0, range_m, 0.2}};
-    return range_agreement(pose, beams, walls, {}).log_likelihood;
+    return range_agreement(pose, 1, beams, walls, {}).log_likelihood;
   };
   EXPECT_NEAR(of_range(10), 0, 1e-9);
   EXPECT_GT(of_range(9.7), of_range(9));
@@ -73,7 +82,7 @@ TEST(RangeAgreement, NearerIsLikelierThanFarther) {
 TEST(RangeAgreement, ABeamThatMeetsNothingIsUnexplained) {
   const WallIndex walls({{{-20, 10}, {20, 10}, 0.1}});
   const std::vector<Beam> beams = {{3.14, 10, 0.2}, {0, 10, 0.2}};
-  const RangeAgreement agreement = range_agreement({}, beams, walls, {});
+  const RangeAgreement agreement = range_agreement({}, 1, beams, walls, {});
   EXPECT_DOUBLE_EQ(agreement.explained, 0.5);
   EXPECT_NEAR(agreement.log_likelihood, std::log(RangeSettings{}.chance_nearer), 1e-6);
 }
@@ -84,13 +93,13 @@ TEST(RangeAgreement, AGrazingBeamIsMeasuredAcrossTheWall) {
   const double bearing = 1.5707963 - 0.05;
   const double range_m = 1 / std::cos(bearing);
   const std::vector<Beam> beams = {{bearing, range_m + 4, 0.2}};
-  EXPECT_GT(range_agreement({}, beams, walls, {}).log_likelihood, -0.1);
+  EXPECT_GT(range_agreement({}, 1, beams, walls, {}).log_likelihood, -0.1);
 }
 
 TEST(RangeAgreement, WithoutBeamsAllPosesAreAlike) {
   const WallIndex walls({{{-20, 10}, {20, 10}, 0.1}});
-  EXPECT_EQ(range_agreement({}, {}, walls, {}).log_likelihood, 0);
-  EXPECT_EQ(range_agreement({}, {}, walls, {}).explained, 0);
+  EXPECT_EQ(range_agreement({}, 1, {}, walls, {}).log_likelihood, 0);
+  EXPECT_EQ(range_agreement({}, 1, {}, walls, {}).explained, 0);
 }
 
 }  // namespace

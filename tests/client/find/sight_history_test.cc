@@ -69,11 +69,20 @@ TEST_F(SightHistoryTest, TellsWhereItWasThen) {
   for (const PastSight& sight : history_.sights()) {
     if (sight.driven_m != 10) continue;
     ++found;
-    const PlanPose pose = history_.pose_then(pose_, sight);
+    const PlanPose pose = history_.pose_then(pose_, 1, sight);
     EXPECT_NEAR((pose.enu_m - then.enu_m).norm(), 0, 1e-9);
     EXPECT_NEAR(pose.heading_rad, then.heading_rad, 1e-9);
   }
   EXPECT_EQ(found, 1U);
+}
+
+TEST_F(SightHistoryTest, ItsWayIsTheWheelsUntilScaled) {
+  drive(10);
+  const PastSight& first = history_.sights().front();
+  EXPECT_EQ(first.driven_m, 1);
+  const PlanPose pose = history_.pose_then(pose_, 1.5, first);
+  EXPECT_NEAR((pose_.enu_m - pose.enu_m).norm(), 1.5 * 9, 1e-9);
+  EXPECT_NEAR(pose.heading_rad, pose_.heading_rad, 1e-9);
 }
 
 }  // namespace

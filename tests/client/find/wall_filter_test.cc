@@ -42,16 +42,18 @@ WallObservation seen_at(const PlanPose& pose, const WallIndex& walls, Random& ra
 
 class WallFilterTest : public ::testing::Test {
  protected:
-  // On along a heading for so many steps, turning evenly.
+  // On along a heading for so many steps, turning evenly. The wheels tell too much or too little,
+  // and what is triangulated by them with them.
   void drive(int steps, double turn_rad = 0) {
     std::normal_distribution<double> normal;
     for (int i = 0; i < steps; ++i) {
       const double turn = turn_rad / steps;
       pose_ = moved(pose_, kStepM, turn);
-      steps_.push_back(
-          {pose_,
-           {kStepS, kStepM * (1.01 + 0.02 * normal(random_)), turn + 0.003 * normal(random_)},
-           seen_at(pose_, walls_, random_)});
+      const double told_m = kStepM * (wheels_tell_ + 0.02 * normal(random_));
+      Step step{
+          pose_, {kStepS, told_m, turn + 0.003 * normal(random_)}, seen_at(pose_, walls_, random_)};
+      for (Beam& beam : step.observation.beams) beam.range_m *= wheels_tell_;
+      steps_.push_back(std::move(step));
     }
   }
 
@@ -97,6 +99,7 @@ class WallFilterTest : public ::testing::Test {
   WallIndex walls_{testing::bent_street()};
   Random random_{11};
   PlanPose pose_{{1, 3}, 0};
+  double wheels_tell_ = 1.01;  // of a metre
   std::vector<Step> steps_;
 };
 
@@ -119,6 +122,20 @@ TEST_F(WallFilterTest, KeepsAStartThatIsKnown) {
   const Outcome outcome = run(settings, walls_);
   EXPECT_EQ(outcome.wrong, 0);
   EXPECT_GT(outcome.found, 10);
+}
+
+TEST_F(WallFilterTest, LearnsTheScaleOfTheWheels) {
+  for (const double wheels_tell : {0.96, 1.04}) {
+    steps_.clear();
+    pose_ = {{1, 3}, 0};
+    wheels_tell_ = wheels_tell;
+    drive_round_the_corner();
+    FilterSettings settings = seeded(1);
+    settings.start = StartBelief{{{1, 3}, 0}, 2, 0.2};
+    const Outcome outcome = run(settings, walls_);
+    EXPECT_NEAR(outcome.mode.wheel_scale * wheels_tell, 1, 0.015);
+    EXPECT_LT(outcome.last_error_m, 1);
+  }
 }
 
 // Nothing is looked for elsewhere, whatever goes through walls, as long as it was not found.
