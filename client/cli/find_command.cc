@@ -67,7 +67,7 @@ Result<MapDescription> map_to_search(MapSource& source, const Options& options) 
 }
 
 // How far outside of its area a vehicle sees walls.
-constexpr double kViewM = 80;
+constexpr double kViewM = RangeSettings{}.reach_m;
 
 std::optional<Bounds> area_of(const Options& options) {
   const auto& area = options.area_deg;
@@ -113,6 +113,26 @@ Result<std::optional<Backdrop>> backdrop_of(const Options& options,
   if (shows_walls) return std::optional(std::move(*backdrop));
   return Error{ErrorCode::invalid_input, options.backdrop, "the picture shows none of the walls",
                "check its world file or give a picture of the area"};
+}
+
+// What of the options cannot be meant, where something cannot.
+std::optional<std::string> wrong_call(const Options& options) {
+  if (options.source.server.empty() && options.source.map.empty()) {
+    return "either --server or --map is required";
+  }
+  const std::optional<Bounds> area = area_of(options);
+  if (area && (!area->is_valid() || area->crosses_180())) {
+    return "--area is no box of west, south, east and north";
+  }
+  if (options.start_deg.empty()) return std::nullopt;
+  const GeoPoint start{options.start_deg[0], options.start_deg[1], 0};
+  if (!is_valid(start)) return "--start is no latitude and longitude";
+  const Bounds about_start{start.longitude_deg, start.latitude_deg, start.longitude_deg,
+                           start.latitude_deg};
+  if (area && !area->meets(about_start)) {
+    return "--start lies outside of --area";
+  }
+  return std::nullopt;
 }
 
 FinderSettings finder_settings(const Options& options, bool has_heading) {
@@ -229,15 +249,8 @@ int run_find(const std::string& program, std::vector<std::string> words) {
   Options options;
   add_options(app, options);
   if (const auto code = parse_words(app, std::move(words))) return *code;
-  if (options.source.server.empty() && options.source.map.empty()) {
-    std::cerr << program << ": either --server or --map is required; see '" << program
-              << " --help'\n";
-    return kExitWrongCall;
-  }
-
-  if (!options.start_deg.empty() && !is_valid({options.start_deg[0], options.start_deg[1], 0})) {
-    std::cerr << program << ": --start is no latitude and longitude; see '" << program
-              << " --help'\n";
+  if (const auto wrong = wrong_call(options)) {
+    std::cerr << program << ": " << *wrong << "; see '" << program << " --help'\n";
     return kExitWrongCall;
   }
 

@@ -76,10 +76,12 @@ Found WallFilter::update(const WallObservation& observation, const WheelMotion& 
                is_about_start ? Crossing::dropped : Crossing::drawn_anew, random_);
   }
   const bool is_sight = history_.add(observation, motion);
-  if (is_ours && !is_started_ && !observation.beams.empty() && !observation.sections.empty()) {
+  if (!is_ours) {
+    weigh_by_importance(observation);
+  } else if (!is_started_ && !observation.beams.empty() && !observation.sections.empty()) {
     start_from(observation);
   } else {
-    weigh(cloud_, observation, std::min(way_m_, kMaxEvidenceWayM));
+    weigh_by_evidence(cloud_, observation, std::min(way_m_, kMaxEvidenceWayM));
   }
   if (!observation.beams.empty()) way_m_ = 0;
 
@@ -92,27 +94,30 @@ Found WallFilter::update(const WallObservation& observation, const WheelMotion& 
   return {status, mode, watch_.explained()};
 }
 
-// The paper's method weighs every frame alike, ours by the way driven.
-void WallFilter::weigh(ParticleCloud& cloud, const WallObservation& observation,
-                       double way_m) const {
-  std::vector<double> log_likelihoods(cloud.size(), 0);
-  if (settings_.method == FindMethod::orientations) {
-    if (observation.sections.empty()) return;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      // Eq. 4; a particle that explains nothing keeps a trace, so that the weights have a sum.
-      log_likelihoods[i] =
-          std::log(1e-9 + orientation_importance(cloud[i].pose, observation.sections, walls_,
-                                                 settings_.view_reach_m));
-    }
-  } else {
-    if (observation.beams.empty()) return;
-    EvidenceSettings evidence;
-    evidence.ranges = watch_.is_found() ? kSharp : kBroad;
-    evidence.view_reach_m = settings_.view_reach_m;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      log_likelihoods[i] = way_m * evidence_per_m(cloud[i].pose, cloud[i].wheel_scale, observation,
-                                                  walls_, evidence);
-    }
+// The paper's method, which weighs every frame alike.
+void WallFilter::weigh_by_importance(const WallObservation& observation) {
+  if (observation.sections.empty()) return;
+  std::vector<double> log_likelihoods;
+  for (const Particle& particle : cloud_) {
+    // Eq. 4; a particle that explains nothing keeps a trace, so that the weights have a sum.
+    log_likelihoods.push_back(
+        std::log(1e-9 + orientation_importance(particle.pose, observation.sections, walls_,
+                                               settings_.view_reach_m)));
+  }
+  weigh_cloud(cloud_, log_likelihoods);
+}
+
+// Ours, which weighs a frame by the way driven.
+void WallFilter::weigh_by_evidence(ParticleCloud& cloud, const WallObservation& observation,
+                                   double way_m) const {
+  if (observation.beams.empty()) return;
+  EvidenceSettings evidence;
+  evidence.ranges = watch_.is_found() ? kSharp : kBroad;
+  evidence.view_reach_m = settings_.view_reach_m;
+  std::vector<double> log_likelihoods;
+  for (const Particle& particle : cloud) {
+    log_likelihoods.push_back(
+        way_m * evidence_per_m(particle.pose, particle.wheel_scale, observation, walls_, evidence));
   }
   weigh_cloud(cloud, log_likelihoods);
 }
@@ -139,7 +144,7 @@ void WallFilter::start_from(const WallObservation& observation) {
   cloud_ = proposed_cloud(kStartCandidates * settings_.particles, observation, walls_, area_,
                           settings_.view_reach_m, random_);
   draw_wheel_scales(cloud_, kWheelScaleSigma, random_);
-  weigh(cloud_, observation, kCandidateWayM);
+  weigh_by_evidence(cloud_, observation, kCandidateWayM);
   is_started_ = true;
 }
 
@@ -167,7 +172,7 @@ void WallFilter::challenge(const WallObservation& observation) {
   ParticleCloud challengers = proposed_cloud(kChallengerCandidates * count, observation, walls_,
                                              area_, settings_.view_reach_m, random_);
   draw_wheel_scales(challengers, kWheelScaleSigma, random_);
-  weigh(challengers, observation, kCandidateWayM);
+  weigh_by_evidence(challengers, observation, kCandidateWayM);
   challengers = resampled(challengers, count, random_);
   weigh_by_history(challengers);
   challengers = resampled(challengers, count, random_);

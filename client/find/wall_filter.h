@@ -50,7 +50,9 @@ class WallFilter {
   const ParticleCloud& particles() const { return cloud_; }
 
  private:
-  void weigh(ParticleCloud& cloud, const WallObservation& observation, double way_m) const;
+  void weigh_by_importance(const WallObservation& observation);
+  void weigh_by_evidence(ParticleCloud& cloud, const WallObservation& observation,
+                         double way_m) const;
   double weigh_by_history(ParticleCloud& cloud) const;
   void start_from(const WallObservation& observation);
   std::optional<double> explained_by(const BeliefMode& mode,

@@ -127,6 +127,10 @@ class Find(CommandTest):
                       ["--map", "m", "--start-sigma-m", 3], ["--map", "m", "--start", "91,8"],
                       ["--map", "m", "--start", "nan,8"], []):
             self.assertEqual(self.find(*words).returncode, 2, words)
+        for words, message in ((["--area", "9,49,8,50"], "--area is no box"), (["--area", "8,49,9,nan"], "--area is no box"),
+                               (["--area", "8,49,9,50", "--start", "49.5,7.9"], "--start lies outside of --area"),
+                               (["--area", "8,49,9,50", "--start", "48.9,8.5"], "--start lies outside of --area")):
+            self.expect_refused(self.find("--map", "m", *words), 2, message)
 
 
 commands.main() if __name__ == "__main__" else None
