@@ -5,49 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/imgproc.hpp>
+#include "tests/client/find/painted_wall.h"
 
 namespace milepost {
 namespace {
 
-const Pinhole kView{360, 360, 300, 250};
-constexpr double kWallM = 14;      // across the way, before the first camera
-constexpr double kPixelPerM = 60;  // of its picture
-
-// A wall full of spots of all sizes, 60 m wide and 40 m high.
-cv::Mat painted_wall() {
-  cv::Mat wall(static_cast<int>(40 * kPixelPerM), static_cast<int>(60 * kPixelPerM), CV_8UC1,
-               cv::Scalar(128));
-  cv::RNG random(4);
-  for (int i = 0; i < 9000; ++i) {
-    const cv::Point at(random.uniform(0, wall.cols), random.uniform(0, wall.rows));
-    const int size = random.uniform(4, 40);
-    cv::rectangle(wall, {at.x, at.y, size, random.uniform(4, 40)}, random.uniform(0, 255),
-                  cv::FILLED);
-  }
-  cv::GaussianBlur(wall, wall, {0, 0}, 1.5);
-  return wall;
-}
-
-// The wall as a camera sees it that went ahead by `ahead_m` and turned right by `turn_rad`.
-cv::Mat seen(const cv::Mat& wall, double ahead_m, double turn_rad) {
-  Eigen::Matrix3d camera_from_first =
-      Eigen::AngleAxisd(-turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  // A point x, y of the wall's picture lies at ((x, y) - middle) / kPixelPerM, kWallM ahead.
-  Eigen::Matrix3d first_from_picture;
-  first_from_picture << 1 / kPixelPerM, 0, -30, 0, 1 / kPixelPerM, -20, 0, 0, kWallM - ahead_m;
-  Eigen::Matrix3d pixel_from_camera;
-  pixel_from_camera << kView.focal_x_px, 0, kView.principal_x_px, 0, kView.focal_y_px,
-      kView.principal_y_px, 0, 0, 1;
-  const Eigen::Matrix3d h = pixel_from_camera * camera_from_first * first_from_picture;
-  cv::Mat homography(3, 3, CV_64F);
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) homography.at<double>(r, c) = h(r, c);
-  }
-  cv::Mat image;
-  cv::warpPerspective(wall, image, homography, {600, 500}, cv::INTER_AREA);
-  return image;
-}
+using testing::kView;
+using testing::kWallM;
+using testing::painted_wall;
+using testing::seen;
 
 double median(std::vector<double> values) {
   std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
