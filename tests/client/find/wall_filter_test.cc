@@ -188,6 +188,38 @@ TEST_F(WallFilterTest, StandingStillChangesNoBelief) {
   EXPECT_LT(outcome.last_error_m, 1.5);
 }
 
+// ... and no particle moves or is drawn anew, so long as nothing is seen.
+TEST_F(WallFilterTest, StandingStillParticlesStay) {
+  drive(5);
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{1, 3}, 0}, 2, 0.1};
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  for (const Step& step : steps_) filter.update(step.observation, step.motion);
+  const ParticleCloud before = filter.particles();
+  for (int i = 0; i < 20; ++i) filter.update({}, {kStepS, 0, 0});
+  ASSERT_EQ(filter.particles().size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(filter.particles()[i].pose.enu_m, before[i].pose.enu_m);
+    EXPECT_EQ(filter.particles()[i].pose.heading_rad, before[i].pose.heading_rad);
+  }
+  filter.update({}, {kStepS, 0, 0.1});  // a turn on the spot is a motion
+  EXPECT_NE(filter.particles().front().pose.heading_rad, before.front().pose.heading_rad);
+}
+
+// Most of those that look to the sides go into houses, and with them all of their weight.
+TEST_F(WallFilterTest, AKnownStartThatLosesParticlesAtWallsHasEnoughAgain) {
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{0, 30}, 0}, 1, 1.5};
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  for (int i = 0; i < 20; ++i) {
+    filter.update({}, {kStepS, kStepM, 0});
+    EXPECT_GE(filter.particles().size(), settings.particles / 2);
+  }
+  for (const Particle& particle : filter.particles()) {
+    EXPECT_LT(std::abs(particle.pose.enu_m.x()), 8);  // in the street
+  }
+}
+
 TEST_F(WallFilterTest, OneParticleIsAllowed) {
   drive(20);
   FilterSettings settings = seeded(1);
