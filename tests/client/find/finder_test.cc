@@ -1,4 +1,5 @@
-// The finder where its frames show nothing: what it makes of walls, wheels and its start.
+// The finder: what it makes of walls, wheels and its start where its frames show nothing, and of a
+// wall that they show.
 #include "client/find/finder.h"
 
 #include <gtest/gtest.h>
@@ -6,10 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/client/find/painted_wall.h"
+
 namespace milepost {
 namespace {
 
-const Pinhole kView{360, 360, 300, 250};
+using testing::kView;
+using testing::kWallM;
+
 const GeoPoint kPlace{49, 8.4, 0};
 
 // A point so far east and north of kPlace.
@@ -138,6 +143,45 @@ TEST(Finder, AHeadingIsFrom0To360) {
   FinderSettings settings = starting_at(0, 0, 1);
   settings.start->heading_deg = -30;
   EXPECT_NEAR(Finder(kWalls, kView, settings).find(blank(), 0).heading_deg, 330, 2);
+}
+
+// Straight to a wall, with wheels that tell too much: it is found, carried on where nothing is
+// seen, and as far from the wall as it is in truth.
+TEST(Finder, FindsItselfBeforeAWall) {
+  const std::vector<Wall> across = {wall(-30, 0, 30, 0, 0.1)};
+  FinderSettings settings = starting_at(0, -40, 1);
+  settings.start->heading_deg = 0;
+  settings.start->heading_sigma_deg = 1;
+  Finder finder(across, kView, settings);
+  const cv::Mat painted = testing::painted_wall();
+  FindFix fix;
+  int frame = 0;
+  for (double away_m = 40; away_m >= 6; away_m -= 2, ++frame) {
+    fix = finder.find(testing::seen(painted, kWallM - away_m, 0), frame);
+    finder.observe({static_cast<double>(frame), 2 * 1.05, 0});
+  }
+  EXPECT_EQ(fix.status, FindStatus::tracking);
+  EXPECT_GT(fix.mass, 0.8);
+  EXPECT_GT(fix.explained, 0.6);
+  EXPECT_LT(fix.sigma_m, 3);
+  const double north_m = LocalFrame(kPlace).enu_from_geo(fix.position).north_m;
+  EXPECT_NEAR(north_m, -6, 0.8);  // -4.3 by the wheels
+  EXPECT_EQ(finder.find(blank(), frame).status, FindStatus::predicted);
+}
+
+// Its wheels turn by 5 degrees more or less, for the root of each second; ours by one.
+TEST(Finder, ThePapersMethodIsLessSureOfTurns) {
+  const auto heading_sigma_deg = [](FindMethod method) {
+    FinderSettings settings = starting_at(-60, 0, 1);
+    settings.start->heading_sigma_deg = 0.1;
+    settings.method = method;
+    Finder finder(kWalls, kView, settings);
+    finder.find(blank(), 0);
+    finder.observe({0, 4, 0});
+    return finder.find(blank(), 4).heading_sigma_deg;
+  };
+  EXPECT_GT(heading_sigma_deg(FindMethod::orientations),
+            2 * heading_sigma_deg(FindMethod::combined));
 }
 
 TEST(Finder, AStartWithoutAHeadingMayLookAnywhere) {

@@ -92,6 +92,14 @@ TEST(Closure, AHouseStandsAndALoneLineDoesNot) {
   for (std::size_t i = 0; i < house.size(); ++i) expect_line(left[i], house[i]);
 }
 
+TEST(Closure, EndsWithinReachAreOfOneCorner) {
+  const auto apart = [](double apart_m) {
+    return closed({line(0, 0, 10, 0), line(10 + apart_m, 0, 10 + apart_m, 8)}, {}).size();
+  };
+  EXPECT_EQ(apart(2.4), 2U);
+  EXPECT_EQ(apart(2.6), 0U);
+}
+
 TEST(Closure, GoesOnUntilAllThatIsLeftStands) {
   ClosureSettings both_ends;
   both_ends.min_ends = 2;
@@ -109,8 +117,21 @@ TEST(Corners, EndsAreLedTogether) {
 TEST(Corners, WhatIsFarOrAlmostParallelStays) {
   const WallLines far = {line(0, 0, 7, 0), line(10, 1, 10, 8)};
   expect_line(with_corners(far, {})[0], far[0]);
-  const WallLines flat = {line(0, 0, 9, 0), line(9.5, 0.1, 19, 2)};
+  const WallLines far_beside = {line(10, 1, 10, 8), line(0, 0, 7, 0)};
+  expect_line(with_corners(far_beside, {})[0], far_beside[0]);
+  const WallLines flat = {line(0, 0, 9, 0), line(10.5, 0.1, 19, 1.8)};  // they cross at 10, 0
   expect_line(with_corners(flat, {})[0], flat[0]);
+  expect_line(with_corners(flat, {})[1], flat[1]);
+}
+
+// Led to the corner, the short line would turn round.
+TEST(Corners, NoLineTurnsRound) {
+  const WallLines lines = {line(0, 0, 9, 0), line(8, -0.5, 8, 1)};
+  expect_line(with_corners(lines, {})[1], line(8, 0, 8, 1));
+  const WallLines shorter = {line(0, 0, 9, 0), line(8, -0.5, 8, 0.1)};
+  expect_line(with_corners(shorter, {})[1], line(8, -0.5, 8, 0));
+  const WallLines beyond = {line(0, 0, 9, 0), line(8, 0.5, 8, 0.9)};
+  expect_line(with_corners(beyond, {})[1], beyond[1]);
 }
 
 TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
@@ -118,6 +139,10 @@ TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
       with_corners({line(0, 0, 9, 0), line(9.5, 0.5, 9.5, 8), line(10.5, 0.5, 10.5, 8)}, {});
   EXPECT_NEAR(lines[0].end_m.x(), 9.5, 1e-9);
   expect_line(lines[2], line(10.5, 0.5, 10.5, 8));
+  const WallLines turned =
+      with_corners({line(0, 0, 9, 0), line(10.5, 0.5, 10.5, 8), line(9.5, 0.5, 9.5, 8)}, {});
+  EXPECT_NEAR(turned[0].end_m.x(), 9.5, 1e-9);
+  expect_line(turned[1], line(10.5, 0.5, 10.5, 8));
 }
 
 TEST(Coverage, WhatIsKnownIsLeftOut) {

@@ -160,6 +160,34 @@ TEST(Clutter, RoughAndGreenAreMasked) {
   }
 }
 
+// The grey of ground with noise where the mask says so.
+cv::Mat noise_within(const cv::Mat& mask) {
+  cv::Mat grey(mask.size(), CV_8UC1, cv::Scalar::all(128));
+  cv::Mat noise(mask.size(), CV_8UC1);
+  cv::RNG(5).fill(noise, cv::RNG::UNIFORM, 0, 256);
+  noise.copyTo(grey, mask);
+  return grey;
+}
+
+TEST(Clutter, WhatIsSmallIsNone) {
+  cv::Mat spot = cv::Mat::zeros(300, 300, CV_8UC1);
+  spot(cv::Rect(130, 130, 20, 20)).setTo(255);
+  EXPECT_EQ(cv::countNonZero(rough_mask(noise_within(spot), kPixelM, {})), 0);
+  spot(cv::Rect(100, 100, 100, 100)).setTo(255);
+  EXPECT_GT(cv::countNonZero(rough_mask(noise_within(spot), kPixelM, {})), 8000);
+  Picture picture = drawn({{20, 20}, {}, {}, 0, {}});
+  picture.bgr.setTo(cv::Scalar::all(128));
+  for (int x = 10; x < 200; x += 10) picture.bgr.at<cv::Vec3b>(x, x) = {0, 255, 0};
+  EXPECT_EQ(cv::countNonZero(green_mask(picture, {})), 0);
+}
+
+TEST(Clutter, NarrowGapsAreClosed) {
+  cv::Mat stripes = cv::Mat::zeros(300, 300, CV_8UC1);
+  for (int x = 0; x < 300; x += 20) stripes.colRange(x, std::min(x + 10, 300)).setTo(255);
+  const cv::Mat rough = rough_mask(noise_within(stripes), kPixelM, {});
+  EXPECT_EQ(cv::countNonZero(rough.colRange(20, 270) == 0), 0);
+}
+
 TEST(Clutter, GreyPicturesHaveNoGreen) {
   Picture picture = drawn(one_house());
   cv::cvtColor(grey_of(picture), picture.bgr, cv::COLOR_GRAY2BGR);
