@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "mapper/aerial/block_plan.h"
 #include "mapper/aerial/closure.h"
@@ -51,6 +52,44 @@ TEST(LineGrid, FindsWhatIsNearAndNotWhatIsFar) {
   EXPECT_EQ(grid.near(line(29, 1, 29, 1)), (std::vector<std::size_t>{0, 2}));
   EXPECT_EQ(grid.near(line(29, 1, 29, 49)), (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_TRUE(grid.near(line(60, 20, 70, 20)).empty());
+}
+
+// The distance between two lines, from points of the first.
+double apart_m(const WallLine& a, const WallLine& b) {
+  double least_m = (a.begin_m - b.begin_m).norm();
+  for (int i = 0; i <= 200; ++i) {
+    const Eigen::Vector2d at_m = a.begin_m + i / 200.0 * (a.end_m - a.begin_m);
+    const double along_m = direction_of(b).dot(at_m - b.begin_m);
+    const double part = std::clamp(along_m / b.length_m(), 0.0, 1.0);
+    least_m = std::min(least_m, (at_m - b.begin_m - part * (b.end_m - b.begin_m)).norm());
+  }
+  return least_m;
+}
+
+TEST(LineGrid, MissesNoneWithinACellsWidth) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> place(-40, 40);
+  std::uniform_real_distribution<double> way(-15, 15);
+  WallLines lines;
+  for (int i = 0; i < 150; ++i) {
+    const double x = place(random);
+    const double y = place(random);
+    lines.push_back(line(x, y, x + way(random), y + way(random)));
+  }
+  constexpr double kCellM = 1.5;
+  LineGrid grid(kCellM);
+  for (std::size_t i = 0; i < lines.size(); ++i) grid.add(i, lines[i]);
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::vector<std::size_t> near = grid.near(lines[i]);
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+      const bool is_named = std::binary_search(near.begin(), near.end(), j);
+      const double away_m = apart_m(lines[i], lines[j]);
+      EXPECT_TRUE(is_named || away_m > kCellM) << i << " and " << j << ", " << away_m;
+      far += is_named && away_m > 5 * kCellM ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(far, 0U);
 }
 
 TEST(Merging, PiecesOfOneLineBecomeOne) {
@@ -143,6 +182,14 @@ TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
       with_corners({line(0, 0, 9, 0), line(10.5, 0.5, 10.5, 8), line(9.5, 0.5, 9.5, 8)}, {});
   EXPECT_NEAR(turned[0].end_m.x(), 9.5, 1e-9);
   expect_line(turned[1], line(10.5, 0.5, 10.5, 8));
+}
+
+// Half of its length is enough, wherever it lies.
+TEST(Coverage, WhatIsKnownForTheGreaterPartIsLeftOut) {
+  const WallLines at_both_ends = {line(0, 0, 2, 0), line(8, 0, 10, 0)};
+  EXPECT_TRUE(not_covered({line(0, 1, 10, 1)}, at_both_ends, {}).empty());
+  const WallLines in_the_middle = {line(4.5, 0, 5.5, 0)};
+  EXPECT_EQ(not_covered({line(0, 1, 10, 1)}, in_the_middle, {}).size(), 1U);
 }
 
 TEST(Coverage, WhatIsKnownIsLeftOut) {
