@@ -49,6 +49,27 @@ TEST_F(EvidenceTest, AFrameThatShowsNoWallsIsNoProofAgainstAPose) {
   EXPECT_NEAR(evidence(pose_), settings_.per_beam * settings_.least_per_beam * 20, 1e-9);
 }
 
+// However wrong the orientations are, they rule no pose out.
+TEST_F(EvidenceTest, OrientationsCountAsFarAsSettingsSay) {
+  const PlanPose away{{0, 0}, std::numbers::pi};
+  observation_.beams.clear();
+  EXPECT_TRUE(std::isfinite(evidence(away)));
+  EXPECT_LT(evidence(away), evidence(pose_));
+  const double near = evidence(pose_);
+  settings_.view_reach_m = 5;  // the wall is not seen
+  EXPECT_LT(evidence(pose_), near);
+  settings_.orientations = 0;
+  EXPECT_EQ(evidence(pose_), evidence(away));
+}
+
+TEST_F(EvidenceTest, WhereRangesMayErrMoreABeamTellsLess) {
+  observation_.sections.clear();
+  observation_.beams.front().range_m = 8.5;
+  const double sharp = evidence(pose_);
+  settings_.ranges.sigma_m *= 4;
+  EXPECT_GT(evidence(pose_), sharp + 1e-3);
+}
+
 TEST_F(EvidenceTest, GrowsWithTheBeams) {
   observation_.sections.clear();
   observation_.beams.front().range_m = 8.5;

@@ -220,6 +220,22 @@ TEST_F(WallFilterTest, AKnownStartThatLosesParticlesAtWallsHasEnoughAgain) {
   }
 }
 
+TEST_F(WallFilterTest, WhereNothingIsSeenTheBeliefSpreads) {
+  const WallIndex far({{{500, 0}, {500, 100}, 0.1}});
+  const PlanBox area{{-600, -600}, {600, 600}};
+  for (const FindMethod method : {FindMethod::orientations, FindMethod::combined}) {
+    FilterSettings settings = seeded(1);
+    settings.method = method;
+    settings.start = StartBelief{{{0, 0}, 0}, 0.01, 0.001};
+    WallFilter filter(far, area, settings);
+    Found found;
+    for (int i = 0; i < 60; ++i) found = filter.update({}, {kStepS, kStepM, 0});
+    EXPECT_NEAR(found.mode.pose.enu_m.y(), 90, 4);
+    EXPECT_GT(found.mode.sigma_m, 0.2);
+    EXPECT_GT(found.mode.heading_sigma_rad, 0.01);
+  }
+}
+
 TEST_F(WallFilterTest, OneParticleIsAllowed) {
   drive(20);
   FilterSettings settings = seeded(1);
