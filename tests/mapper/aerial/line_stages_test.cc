@@ -69,12 +69,13 @@ double apart_m(const WallLine& a, const WallLine& b) {
 TEST(LineGrid, MissesNoneWithinACellsWidth) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> place(-40, 40);
-  std::uniform_real_distribution<double> way(-15, 15);
+  std::uniform_real_distribution<double> way(-1, 1);
   WallLines lines;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 300; ++i) {
     const double x = place(random);
     const double y = place(random);
-    lines.push_back(line(x, y, x + way(random), y + way(random)));
+    const double reach = i % 3 == 0 ? 60 : 1;  // long ones and short ones
+    lines.push_back(line(x, y, x + reach * way(random), y + reach * way(random)));
   }
   constexpr double kCellM = 1.5;
   LineGrid grid(kCellM);
@@ -153,6 +154,21 @@ TEST(Corners, EndsAreLedTogether) {
   expect_line(lines[1], line(10, 0, 10, 8));
 }
 
+TEST(Corners, OfAHouseAllAreLedTogether) {
+  const WallLines house =
+      with_corners({line(1, 0, 9, 0), line(10, 1, 10, 7), line(9, 8, 1, 8), line(0, 7, 0, 1)}, {});
+  expect_line(house[0], line(0, 0, 10, 0));
+  expect_line(house[1], line(10, 0, 10, 8));
+  expect_line(house[2], line(10, 8, 0, 8));
+  expect_line(house[3], line(0, 8, 0, 0));
+}
+
+TEST(Corners, NeedNotBeSquare) {
+  const WallLines lines = with_corners({line(0, 0, 9, 0), line(10.5, 0.5, 18, 8)}, {});
+  expect_line(lines[0], line(0, 0, 10, 0));
+  expect_line(lines[1], line(10, 0, 18, 8));
+}
+
 TEST(Corners, WhatIsFarOrAlmostParallelStays) {
   const WallLines far = {line(0, 0, 7, 0), line(10, 1, 10, 8)};
   expect_line(with_corners(far, {})[0], far[0]);
@@ -182,6 +198,11 @@ TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
       with_corners({line(0, 0, 9, 0), line(10.5, 0.5, 10.5, 8), line(9.5, 0.5, 9.5, 8)}, {});
   EXPECT_NEAR(turned[0].end_m.x(), 9.5, 1e-9);
   expect_line(turned[1], line(10.5, 0.5, 10.5, 8));
+  // ... the other way round: two lines that end at one.
+  const WallLines ended =
+      with_corners({line(0, 0.9, 9, 0.9), line(0, 0, 9, 0), line(10, -1, 10, -9)}, {});
+  expect_line(ended[0], line(0, 0.9, 9, 0.9));
+  expect_line(ended[2], line(10, 0, 10, -9));
 }
 
 // Half of its length is enough, wherever it lies.
