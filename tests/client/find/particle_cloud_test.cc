@@ -182,6 +182,29 @@ TEST(ParticleCloud, ResamplingFavoursNone) {
   EXPECT_NEAR(first / 2000.0, 0.6, 0.05);
 }
 
+// Rounded, the weights may add up to less than 1.
+TEST(ParticleCloud, ResamplingEndsWithTheLastParticle) {
+  Random random(3);
+  const ParticleCloud cloud = {{{{0, 0}, 0}, 0.5}, {{{1, 0}, 0}, 0.4}};
+  int last = 0;
+  for (const Particle& particle : resampled(cloud, 100, random)) {
+    last += particle.pose.enu_m.x() == 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(last, 50, 1);
+}
+
+TEST(ParticleCloud, EnoughParticlesAreAskedByWhereTheyLie) {
+  const auto enough = [](const Eigen::Vector2d& step_m, double turn_rad) {
+    ParticleCloud cloud;
+    for (int i = 0; i < 100; ++i) cloud.push_back({{step_m * i, turn_rad * i}, 0.01});
+    return enough_particles(cloud, 1, 0.1);
+  };
+  EXPECT_EQ(enough({0, 0}, 0), 200U);
+  EXPECT_GT(enough({1, 0}, 0), 1000U);
+  EXPECT_EQ(enough({0, 1}, 0), enough({1, 0}, 0));
+  EXPECT_EQ(enough({0, 0}, 2 * std::numbers::pi), 200U);  // all look the same way
+}
+
 TEST(ParticleCloud, ABeliefOfManyHeadingsTakesMoreParticles) {
   Random random(1);
   const auto enough = [&](double sigma_rad) {

@@ -42,6 +42,18 @@ TEST(ScenePoints, StandAsFarAsTheWallIs) {
   EXPECT_LT(median(off_sigmas), 1.5);
 }
 
+TEST(ScenePoints, AWallNearbyIsSeenToo) {
+  const cv::Mat wall = painted_wall();
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, kWallM - 4, 0), {});
+  tracker.observe(seen(wall, kWallM - 3.5, 0), {0.2, 0.5, 0});
+  const auto points = tracker.observe(seen(wall, kWallM - 3, 0), {0.2, 0.5, 0});
+  ASSERT_GT(points.size(), 100U);
+  std::vector<double> ahead_m;
+  for (const ScenePoint& point : points) ahead_m.push_back(point.camera_m.z());
+  EXPECT_NEAR(median(ahead_m), 3, 0.1);
+}
+
 TEST(ScenePoints, StandingStillTellsNothing) {
   const cv::Mat wall = painted_wall();
   ScenePointTracker tracker(kView, {});

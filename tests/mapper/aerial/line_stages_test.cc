@@ -100,6 +100,41 @@ TEST(Merging, PiecesOfOneLineBecomeOne) {
   expect_line(lines[1], line(0, 5, 3, 5));
 }
 
+TEST(Merging, TheLineIsThatOfLeastSquares) {
+  const WallLines beside = merged({line(100, 50, 110, 50), line(102.5, 50.3, 107.5, 50.3)}, {});
+  ASSERT_EQ(beside.size(), 1U);
+  expect_line(beside[0], line(100, 50.1, 110, 50.1));
+  const WallLines turned = merged({line(-5, 0, 5, 0), line(-2.5, -0.2, 2.5, 0.2)}, {});
+  ASSERT_EQ(turned.size(), 1U);
+  EXPECT_NEAR(direction_of(turned[0]).y(), 125.0 / 1125 * 0.08, 2e-4);  // by their cubed lengths
+  const WallLines steps = merged({line(0, 0, 4, 0), line(4.5, 0.3, 8.5, 0.3)}, {});
+  ASSERT_EQ(steps.size(), 1U);
+  const double slope = 2.25 * 0.15 / (2.25 * 2.25 + 16.0 / 12);
+  EXPECT_NEAR(direction_of(steps[0]).y() / direction_of(steps[0]).x(), slope, 2e-4);
+}
+
+TEST(Merging, TheLineReachesFromTheFirstEndToTheLast) {
+  for (const WallLine& other : {line(8, 0, 6, 0), line(6, 0, 8, 0)}) {
+    const WallLines lines = merged({line(0, 0, 5.5, 0), other}, {});
+    ASSERT_EQ(lines.size(), 1U);
+    expect_line(lines[0], line(0, 0, 8, 0));
+  }
+}
+
+// A piece that is too far from the longest is near enough to what it has gathered.
+TEST(Merging, GoesOnAsLongAsItGrows) {
+  const WallLines lines =
+      merged({line(0, 0, 10, 0), line(12, 0, 15, 0), line(10.5, 0, 11.5, 0)}, {});
+  ASSERT_EQ(lines.size(), 1U);
+  expect_line(lines[0], line(0, 0, 15, 0));
+}
+
+TEST(Merging, TheLongestComesFirst) {
+  const WallLines lines = merged({line(0, 0, 6, 0), line(0, 9, 5, 9), line(5.5, 9, 10, 9)}, {});
+  ASSERT_EQ(lines.size(), 2U);
+  expect_line(lines[0], line(0, 9, 10, 9));
+}
+
 TEST(Merging, TheLongestPartTellsTheSense) {
   const WallLines lines = merged({line(0, 0, 2, 0), line(9, 0.05, 2.3, 0.05)}, {});
   ASSERT_EQ(lines.size(), 1U);
@@ -110,6 +145,10 @@ TEST(Merging, ParallelsApartAndCrossingLinesStay) {
   EXPECT_EQ(merged({line(0, 0, 9, 0), line(0, 0.6, 9, 0.6)}, {}).size(), 2U);
   EXPECT_EQ(merged({line(0, 0, 9, 0), line(0, 0, 9, 2)}, {}).size(), 2U);
   EXPECT_EQ(merged({line(0, 0, 4, 0), line(5.5, 0, 9, 0)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 4, 0), line(-4.5, 0, -1.5, 0)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 9, 0), line(4, -0.2, 4.1, 0.2)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 9, 0), line(1, 0.2, 9, 0.8)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 9, 0), line(1, 0.8, 9, 0.2)}, {}).size(), 2U);
 }
 
 TEST(Merging, DoesNotDependOnTheOrder) {
