@@ -54,6 +54,34 @@ TEST(ScenePoints, AWallNearbyIsSeenToo) {
   EXPECT_NEAR(median(ahead_m), 3, 0.1);
 }
 
+// Longer than the way to the nearest points that are looked for.
+TEST(ScenePoints, LongStepsAreFollowed) {
+  const cv::Mat wall = painted_wall();
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, 0, 0), {});
+  EXPECT_GT(tracker.observe(seen(wall, 3, 0), {0.2, 3, 0}).size(), 100U);
+}
+
+// Something before the wall that sinks by half a degree each frame.
+TEST(ScenePoints, WhatMovesIsLeftOut) {
+  const cv::Mat wall = painted_wall();
+  const cv::Mat patch = wall(cv::Rect(700, 300, 150, 150));
+  ScenePointTracker tracker(kView, {});
+  std::vector<ScenePoint> points;
+  for (int frame = 0; frame < 2; ++frame) {
+    cv::Mat image = seen(wall, frame, 0);
+    patch.copyTo(image(cv::Rect(400, 150 + 6 * frame, 150, 150)));
+    points = tracker.observe(image, {0.2, static_cast<double>(frame), 0});
+  }
+  int of_patch = 0;
+  for (const ScenePoint& point : points) {
+    const Eigen::Vector2d at = kView.pixel_of(point.camera_m);
+    of_patch += at.x() > 420 && at.x() < 530 && at.y() > 180 && at.y() < 280 ? 1 : 0;
+  }
+  EXPECT_GT(points.size(), 100U);
+  EXPECT_LT(of_patch, 8);
+}
+
 TEST(ScenePoints, StandingStillTellsNothing) {
   const cv::Mat wall = painted_wall();
   ScenePointTracker tracker(kView, {});

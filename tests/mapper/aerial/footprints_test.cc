@@ -74,6 +74,7 @@ TEST(Footprints, ReferencesOtherThanWgs84AreRefused) {
   };
   EXPECT_EQ(refusal(with_reference("urn:ogc:def:crs:OGC:1.3:CRS84")), "");
   EXPECT_EQ(refusal(with_reference("EPSG:4326")), "");
+  EXPECT_EQ(refusal(R"({"type": "FeatureCollection", "crs": null, "features": []})"), "");
   EXPECT_THAT(refusal(with_reference("EPSG:3857")),
               AllOf(HasSubstr("town.geojson, crs"), HasSubstr("EPSG:3857"), HasSubstr("ogr2ogr")));
 }

@@ -28,7 +28,10 @@ TEST(BlockPlan, CoresCoverTheImageOnceAndMarginsStayInIt) {
     covered(block.core) += 1;
     EXPECT_EQ(block.seen & cv::Rect({0, 0}, image), block.seen);
     EXPECT_EQ(block.core & block.seen, block.core);
-    EXPECT_EQ(block.seen.x, std::max(0, block.core.x - 30));
+    EXPECT_EQ(block.seen.tl(),
+              cv::Point(std::max(0, block.core.x - 30), std::max(0, block.core.y - 30)));
+    EXPECT_EQ(block.seen.br(), cv::Point(std::min(1030, block.core.br().x + 30),
+                                         std::min(410, block.core.br().y + 30)));
   }
   EXPECT_EQ(cv::countNonZero(covered != 1), 0);
 }

@@ -99,6 +99,64 @@ TEST(EdgeMaps, LooserMapsHoldStricterOnes) {
   }
 }
 
+// A step to the right of a column, by so many grey values of blue, green and red.
+Picture step_of(const cv::Scalar& step) {
+  Picture picture = drawn({{20, 20}, {}, {}, 0, {}});
+  picture.bgr.setTo(cv::Scalar::all(60));
+  picture.bgr.colRange(100, 200).setTo(cv::Scalar::all(60) + step);
+  return picture;
+}
+
+Picture turned(const Picture& picture) {
+  Picture quarter = picture;
+  cv::transpose(picture.bgr, quarter.bgr);
+  return quarter;
+}
+
+TEST(EdgeMaps, TheStrongestChannelTellsTheGradient) {
+  const Gradient grey = gradient_of(step_of(cv::Scalar::all(100)), {});
+  double most = 0;
+  cv::minMaxLoc(grey.x, nullptr, &most);
+  EXPECT_GT(most, 100);
+  for (const cv::Scalar& step :
+       {cv::Scalar(100, 0, 30), cv::Scalar(0, 100, 30), cv::Scalar(30, 10, 100)}) {
+    const Gradient found = gradient_of(step_of(step), {});
+    EXPECT_EQ(cv::norm(found.x, grey.x, cv::NORM_INF), 0) << step;
+    EXPECT_EQ(cv::countNonZero(found.y), 0) << step;
+    const Gradient across = gradient_of(turned(step_of(step)), {});
+    EXPECT_EQ(cv::norm(across.y, grey.x.t(), cv::NORM_INF), 0) << step;
+    EXPECT_EQ(cv::countNonZero(across.x), 0) << step;
+  }
+}
+
+TEST(EdgeMaps, AnEdgeReachesThePicturesBorder) {
+  const Picture picture = step_of(cv::Scalar::all(100));
+  const cv::Mat edges = edge_maps(picture, gradient_of(picture, {}), {}).front();
+  for (const int row : {1, 198}) EXPECT_GT(cv::countNonZero(edges.row(row)), 0) << row;
+}
+
+// In grey values a metre; where an edge fades it goes on to a part of that.
+TEST(EdgeMaps, AnEdgeBeginsWhereItIsStrongAndGoesOnWhereItFades) {
+  Picture picture = step_of(cv::Scalar::all(0));
+  for (int y = 0; y < 200; ++y) {
+    picture.bgr.row(y).colRange(100, 200).setTo(cv::Scalar::all(60 + y / 2.0));
+  }
+  EdgeSettings settings;
+  const Gradient gradient = gradient_of(picture, settings);
+  settings.high_per_m = {120};
+  const auto first_row = [&] {
+    const cv::Mat edges = edge_maps(picture, gradient, settings).front().colRange(95, 105);
+    int row = 0;
+    while (row < 200 && cv::countNonZero(edges.row(row)) == 0) ++row;
+    return row;
+  };
+  const int begins = first_row();
+  // Across a step that is smoothed by 1.5 pixels the gradient is 0.27 of it.
+  EXPECT_NEAR(begins, 0.4 * 2 * 120 * kPixelM / 0.25, 8);
+  settings.low_share = 1;
+  EXPECT_NEAR(first_row(), 2 * 120 * kPixelM / 0.25, 8);
+}
+
 TEST(EdgeMaps, WhereDataEndsIsNoEdge) {
   Picture picture = drawn({{40, 30}, {}, {}, 0, {}});
   picture.covered.colRange(0, 150).setTo(0);
