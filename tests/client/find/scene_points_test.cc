@@ -54,6 +54,27 @@ TEST(ScenePoints, AWallNearbyIsSeenToo) {
   EXPECT_NEAR(median(ahead_m), 3, 0.1);
 }
 
+TEST(ScenePoints, ShortStepsAddUp) {
+  const cv::Mat wall = painted_wall();
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, 0, 0), {});
+  std::size_t most = 0;
+  for (int i = 1; i <= 4; ++i) {
+    most =
+        std::max(most, tracker.observe(seen(wall, 0.25 * i, 0.05 * i), {0.1, 0.25, 0.05}).size());
+  }
+  EXPECT_GT(most, 100U);
+}
+
+// What comes into view is followed from there on.
+TEST(ScenePoints, ATurnOnTheSpotBringsNewPoints) {
+  const cv::Mat wall = painted_wall();
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, 0, -1.2), {});
+  for (int i = 11; i >= 0; --i) tracker.observe(seen(wall, 0, -0.1 * i), {0.2, 0, 0.1});
+  EXPECT_GT(tracker.observe(seen(wall, 1, 0), {0.2, 1, 0}).size(), 100U);
+}
+
 // Longer than the way to the nearest points that are looked for.
 TEST(ScenePoints, LongStepsAreFollowed) {
   const cv::Mat wall = painted_wall();

@@ -96,6 +96,23 @@ TEST(Footprints, WhatIsBrokenIsNamed) {
               AllOf(HasSubstr("coordinates[0][0]"), HasSubstr("in degrees")));
   EXPECT_THAT(refusal(polygon("[[8, 49], [8.2, 49], [8.2, 49.01], [8, 49]]")),
               HasSubstr("longer than 0.1 degrees"));
+  EXPECT_THAT(refusal(polygon("[[8, 49], [8.01, 49], [8.01, 49.2], [8, 49]]")),
+              HasSubstr("longer than 0.1 degrees"));
+  for (const char* const end : {"[8.01, 90.01]", "[180.01, 49]"}) {
+    EXPECT_THAT(refusal(polygon("[[8, 49], [8.01, 49], " + std::string(end) + ", [8, 49]]")),
+                AllOf(HasSubstr("coordinates[0][2]"), HasSubstr("in degrees")));
+  }
+  for (const char* const end : {"[8.01]", "7", R"([8.01, "49"])"}) {
+    EXPECT_THAT(refusal(polygon("[[8, 49], [8.01, 49], " + std::string(end) + ", [8, 49]]")),
+                AllOf(HasSubstr("coordinates[0][2]"), HasSubstr("[longitude, latitude]")));
+  }
+  EXPECT_THAT(refusal(R"({"type": 7})"), AllOf(HasSubstr("the root"), HasSubstr("\"type\"")));
+  EXPECT_THAT(refusal(R"({"type": "FeatureCollection", "features": 7})"),
+              HasSubstr("\"features\""));
+  EXPECT_THAT(refusal(geometry("Polygon", "7")), HasSubstr("\"coordinates\""));
+  EXPECT_THAT(refusal(geometry("MultiPolygon", "[7]")),
+              AllOf(HasSubstr("coordinates[0]"), HasSubstr("a list of rings")));
+  EXPECT_THAT(refusal(polygon("7")), AllOf(HasSubstr("coordinates[0]"), HasSubstr("at least 4")));
   EXPECT_EQ(read_footprints("missing.geojson").error().code, ErrorCode::not_found);
 }
 
