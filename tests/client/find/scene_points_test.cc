@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 #include "tests/client/find/painted_wall.h"
 
 namespace milepost {
@@ -73,6 +75,27 @@ TEST(ScenePoints, ATurnOnTheSpotBringsNewPoints) {
   tracker.observe(seen(wall, 0, -1.2), {});
   for (int i = 11; i >= 0; --i) tracker.observe(seen(wall, 0, -0.1 * i), {0.2, 0, 0.1});
   EXPECT_GT(tracker.observe(seen(wall, 1, 0), {0.2, 1, 0}).size(), 100U);
+}
+
+// Of rows of windows one looks like the other: few are taken for their neighbours.
+TEST(ScenePoints, WhatLooksAlikeIsSeldomMistaken) {
+  cv::Mat wall(40 * 60, 60 * 60, CV_8UC1, cv::Scalar(200));
+  for (int y = 20; y < wall.rows; y += 90) {
+    for (int x = 20; x < wall.cols; x += 60) {
+      cv::rectangle(wall, {x, y, 30, 50}, 40, cv::FILLED);
+      cv::rectangle(wall, {x + 5, y + 5, 8, 20}, 120, cv::FILLED);
+    }
+  }
+  cv::GaussianBlur(wall, wall, {0, 0}, 1.5);
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, 0, 0), {});
+  const auto points = tracker.observe(seen(wall, 2, 0), {0.2, 2, 0});
+  int wrong = 0;
+  for (const ScenePoint& point : points) {
+    wrong += std::abs(point.camera_m.z() - (kWallM - 2)) > 4 ? 1 : 0;
+  }
+  ASSERT_GT(points.size(), 100U);
+  EXPECT_LT(wrong, 0.22 * static_cast<double>(points.size()));
 }
 
 // Longer than the way to the nearest points that are looked for.
