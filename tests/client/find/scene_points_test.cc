@@ -74,7 +74,11 @@ TEST(ScenePoints, ATurnOnTheSpotBringsNewPoints) {
   ScenePointTracker tracker(kView, {});
   tracker.observe(seen(wall, 0, -1.2), {});
   for (int i = 11; i >= 0; --i) tracker.observe(seen(wall, 0, -0.1 * i), {0.2, 0, 0.1});
-  EXPECT_GT(tracker.observe(seen(wall, 1, 0), {0.2, 1, 0}).size(), 100U);
+  const auto points = tracker.observe(seen(wall, 1, 0), {0.2, 1, 0});
+  ASSERT_GT(points.size(), 100U);
+  std::vector<double> ahead_m;
+  for (const ScenePoint& point : points) ahead_m.push_back(point.camera_m.z());
+  EXPECT_NEAR(median(ahead_m), kWallM - 1, 0.5);
 }
 
 // Of rows of windows one looks like the other: few are taken for their neighbours.

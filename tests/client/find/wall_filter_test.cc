@@ -236,6 +236,35 @@ TEST_F(WallFilterTest, WhereNothingIsSeenTheBeliefSpreads) {
   }
 }
 
+// However long the vehicle looks at the same walls, this is no news.
+TEST_F(WallFilterTest, StandingStillASightSaysNothing) {
+  drive(5);
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{1, 3}, 0}, 2, 0.1};
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  for (const Step& step : steps_) filter.update(step.observation, step.motion);
+  const ParticleCloud before = filter.particles();
+  const WallObservation sight = seen_at({{4, 20}, 0.1}, walls_, random_);
+  for (int i = 0; i < 20; ++i) filter.update(sight, {kStepS, 0, 0});
+  ASSERT_EQ(filter.particles().size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NEAR(filter.particles()[i].weight, before[i].weight, 1e-12);
+  }
+}
+
+TEST_F(WallFilterTest, ThePapersMethodEnduresWhatNoParticleExplains) {
+  FilterSettings settings = seeded(1);
+  settings.method = FindMethod::orientations;
+  const WallIndex far({{{500, 0}, {500, 100}, 0.1}});
+  WallFilter filter(far, {{-50, -50}, {50, 50}}, settings);
+  const WallObservation sight{{{{-0.1, 0.1}, {0.5}}}, {}};
+  const Found found = filter.update(sight, {kStepS, kStepM, 0});
+  EXPECT_GT(found.mode.mass, 0);
+  EXPECT_LE(found.mode.mass, 1);
+  EXPECT_EQ(filter.particles().size(), settings.particles);
+  for (const Particle& particle : filter.particles()) EXPECT_GT(particle.weight, 0);
+}
+
 TEST_F(WallFilterTest, OneParticleIsAllowed) {
   drive(20);
   FilterSettings settings = seeded(1);

@@ -54,6 +54,18 @@ TEST(Footprints, TheBuildingIsOnTheRight) {
   for (std::size_t i = 4; i < 8; ++i) EXPECT_FALSE(is_right_of((*walls)[i], 8.4005, 49.0005));
 }
 
+TEST(Footprints, TheBuildingIsOnTheRightHoweverTheRingRuns) {
+  for (const char* const ring :
+       {"[[8.4, 49], [8.409, 49.001], [8.402, 49.008], [8.4, 49]]",
+        "[[8.4, 49], [8.402, 49.008], [8.409, 49.001], [8.4, 49]]",
+        "[[8.409, 49.001], [8.4, 49], [8.402, 49.008], [8.409, 49.001]]"}) {
+    const auto walls = read(polygon(ring));
+    ASSERT_TRUE(walls.ok());
+    ASSERT_EQ(walls->size(), 3U);
+    for (const Wall& wall : *walls) EXPECT_TRUE(is_right_of(wall, 8.4035, 49.003)) << ring;
+  }
+}
+
 TEST(Footprints, CollectionsAndMultiPolygonsAreReadAndOthersPassedOver) {
   const std::string square = std::string("[") + kSquare + "]";
   const auto walls = read(R"({"type": "FeatureCollection", "features": [
