@@ -58,6 +58,7 @@ TEST_F(EvidenceTest, OrientationsCountAsFarAsSettingsSay) {
   const double near = evidence(pose_);
   settings_.view_reach_m = 5;  // the wall is not seen
   EXPECT_LT(evidence(pose_), near);
+  settings_.view_reach_m = 60;
   settings_.orientations = 0;
   EXPECT_EQ(evidence(pose_), evidence(away));
 }

@@ -82,7 +82,7 @@ TEST(ModeWatch, AfterAJumpABendIsForgotten) {
     ModeWatch watch{WatchSettings{}};
     PlanPose pose;
     for (int i = 0; i < 60; ++i) {
-      const WheelMotion motion{0.2, 2, i == 5 ? turn_rad : 0};
+      const WheelMotion motion{0.2, 2, i == 20 ? turn_rad : 0};
       pose = moved(pose, motion.distance_m, motion.turn_rad);
       watch.observe({pose, 0.95, 0.3, 0.01}, 0.8, motion);
     }

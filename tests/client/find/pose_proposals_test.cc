@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -80,16 +81,18 @@ TEST(PoseProposals, AgreeWithWhatIsSeenToTheSide) {
   EXPECT_GT(agree, 0.9 * looking);
 }
 
-// As seen from where it is, orientations are not exact.
+// Orientations are not seen exactly.
 TEST(PoseProposals, HeadingsAreSpread) {
-  const WallIndex walls({{{-500, 10}, {500, 10}, 0.1}});
+  const WallIndex walls({{{-500, 10}, {500, 10}, 0.1}, {{-500, -1}, {500, -1}, 0.1}});
   const WallObservation seen{{{{-0.1, 0.1}, {std::numbers::pi / 2}}}, {}};
   Random random(2);
-  double squares = 0;
-  for (const Particle& particle : proposed_cloud(400, seen, walls, {{-9, 0}, {9, 9}}, 60, random)) {
-    squares += std::pow(std::sin(2 * particle.pose.heading_rad) / 2, 2) / 400;
+  std::vector<double> off_rad;
+  for (const Particle& particle : proposed_cloud(401, seen, walls, {{-9, 0}, {9, 9}}, 60, random)) {
+    off_rad.push_back(std::abs(std::sin(particle.pose.heading_rad)));
   }
-  EXPECT_GT(std::sqrt(squares), 0.5 * kRadPerDeg);
+  std::ranges::sort(off_rad);
+  EXPECT_GT(off_rad[200], 0.5 * kRadPerDeg);
+  EXPECT_LT(off_rad[200], 5 * kRadPerDeg);
 }
 
 // In a corner, one beam tells the way from one wall, the other from the other wall.
@@ -116,10 +119,11 @@ TEST(PoseProposals, GoThroughNoWallsAndStayInTheArea) {
   // Between two walls none is 20 m away from what it looks at.
   const WallIndex two({{{-500, 6}, {500, 6}, 0.1}, {{-500, 0}, {500, 0}, 0.1}});
   int between = 0;
-  for (const Particle& particle : proposed_cloud(900, seen, two, {{-9, -6}, {9, 12}}, 60, random)) {
+  for (const Particle& particle :
+       proposed_cloud(1100, seen, two, {{-9, -30}, {9, 36}}, 60, random)) {
     between += particle.pose.enu_m.y() > 0 && particle.pose.enu_m.y() < 6 ? 1 : 0;
   }
-  EXPECT_NEAR(between, 300, 60);
+  EXPECT_NEAR(between, 100, 30);
 }
 
 TEST(PoseProposals, StayInTheAreaAndBeforeTheWalls) {

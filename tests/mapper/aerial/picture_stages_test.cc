@@ -264,13 +264,17 @@ TEST(Clutter, WallsInGrassKeepTheirEdges) {
 }
 
 TEST(ProgressiveHough, FindsEveryWallTheLongestFirst) {
-  const Picture picture = drawn({{40, 30}, {kHouse}, {}, 0, {}});
-  const WallLines lines = lines_of(picture, edge_maps(picture, gradient_of(picture, {}), {}));
-  ASSERT_EQ(lines.size(), 4U);
-  for (const WallLine& wall : walls_of(kHouse)) EXPECT_TRUE(is_found(wall, lines, 0.15));
-  EXPECT_GT(lines[0].length_m(), 11);
-  EXPECT_GT(lines[1].length_m(), 11);
-  EXPECT_LT(lines[2].length_m(), 9);
+  for (const double turn_deg : {20.0, 0.0, 1.0, 45.0, 90.0, 135.0}) {
+    SCOPED_TRACE(turn_deg);
+    const House house{{20, 15}, 12, 8, turn_deg};
+    const Picture picture = drawn({{40, 30}, {house}, {}, 0, {}});
+    const WallLines lines = lines_of(picture, edge_maps(picture, gradient_of(picture, {}), {}));
+    ASSERT_EQ(lines.size(), 4U);
+    for (const WallLine& wall : walls_of(house)) EXPECT_TRUE(is_found(wall, lines, 0.15));
+    EXPECT_GT(lines[0].length_m(), 11);
+    EXPECT_GT(lines[1].length_m(), 11);
+    EXPECT_LT(lines[2].length_m(), 9);
+  }
 }
 
 TEST(ProgressiveHough, ALineOfAStrictMapIsNotFoundAgainInALooseOne) {
@@ -291,6 +295,43 @@ TEST(ProgressiveHough, BridgesAShortGapAndNoLongOne) {
   };
   EXPECT_EQ(count_long(4), 2);
   EXPECT_EQ(count_long(12), 0);
+}
+
+TEST(ProgressiveHough, ALineOfDashesNeedsEnoughOfThem) {
+  const Picture picture = drawn({{40, 30}, {House{{20, 15}, 30, 8, 0}}, {}, 0, {}});
+  const cv::Mat map = edge_maps(picture, gradient_of(picture, {}), {}).front();
+  const auto count_long = [&](int dash_px, int gap_px) {
+    cv::Mat cut = map.clone();
+    for (int x = 0; x + gap_px <= cut.cols; x += dash_px + gap_px) {
+      cut.colRange(x, x + gap_px).setTo(0);
+    }
+    const WallLines lines = lines_of(picture, {cut});
+    return std::count_if(lines.begin(), lines.end(),
+                         [](const WallLine& line) { return line.length_m() > 5; });
+  };
+  EXPECT_GE(count_long(6, 2), 2);
+  EXPECT_EQ(count_long(3, 4), 0);
+}
+
+// Narrow bars of 1 to 12 m, the longest of which are told first, as closely as rounds follow.
+TEST(ProgressiveHough, LinesComeByTheirLength) {
+  Picture picture = drawn({{40, 30}, {}, {}, 0, {}});
+  picture.bgr.setTo(cv::Scalar::all(90));
+  const int lengths_px[] = {30, 120, 10, 70, 20, 100, 50, 40, 60, 80, 11, 110};
+  int y = 10;
+  for (const int length_px : lengths_px) {
+    picture.bgr(cv::Rect(100, y, length_px, 8)).setTo(cv::Scalar::all(200));
+    y += 24;
+  }
+  const WallLines lines =
+      lines_of(picture, {edge_maps(picture, gradient_of(picture, {}), {}).front()});
+  ASSERT_GE(lines.size(), 18U);
+  double least_m = lines.front().length_m();
+  for (const WallLine& line : lines) {
+    EXPECT_GT(line.length_m(), 1.3);
+    EXPECT_LT(line.length_m(), 1.6 * least_m);
+    least_m = std::min(least_m, line.length_m());
+  }
 }
 
 TEST(ProgressiveHough, DenseEdgesAskForLongerLines) {
@@ -315,6 +356,14 @@ TEST(ProgressiveHough, TheSeedDecides) {
     EXPECT_EQ(once[i].begin_m, again[i].begin_m);
     EXPECT_EQ(once[i].end_m, again[i].end_m);
   }
+  HoughSettings other;
+  other.seed = 2;
+  const WallLines in_another_order = lines_of(picture, maps, other);
+  const bool is_same = std::equal(once.begin(), once.end(), in_another_order.begin(),
+                                  in_another_order.end(), [](const WallLine& a, const WallLine& b) {
+                                    return a.begin_m == b.begin_m && a.end_m == b.end_m;
+                                  });
+  EXPECT_FALSE(is_same);
 }
 
 TEST(PlainHough, FindsLinesOfOneMap) {
