@@ -399,12 +399,37 @@ TEST(Regions, ARoofIsMeasured) {
   EXPECT_NEAR(roof->area_m2, 96, 6);
   EXPECT_NEAR(roof->length_m, 12, 1);
   EXPECT_NEAR(roof->width_m, 8, 1);
-  EXPECT_NEAR(roof->hull_ratio, 1, 0.1);
+  EXPECT_LT(roof->texture, 3);  // deviations, not the lightness itself
+  EXPECT_NEAR(roof->mean_lab[0], 46, 4);
   const Eigen::Vector2d middle = map.grid.pixel_from_ground(house.middle_m);
   const auto outward = std::count_if(
       roof->outline.begin(), roof->outline.end(),
       [&](const OutlinePoint& point) { return point.outward.dot(point.at_px - middle) > 0; });
   EXPECT_GT(static_cast<double>(outward), 0.95 * static_cast<double>(roof->outline.size()));
+}
+
+TEST(Regions, ShadowsGreenGapsAndSmallOnesAreNone) {
+  Yard yard = one_house();
+  yard.trees = {{33, 24}};
+  yard.sun.azimuth_deg = 0;
+  Picture picture = drawn(yard);
+  picture.covered.colRange(0, 50).setTo(0);
+  picture.bgr(cv::Rect(200, 40, 17, 17)).setTo(cv::Scalar::all(250));  // a car
+  const RegionMap map = regions_of(picture);
+  const auto kind_at = [&](double x_m, double y_m) {
+    const Eigen::Vector2d pixel = map.grid.pixel_from_ground({x_m, y_m});
+    return map.kinds.at<std::uint8_t>(static_cast<int>(pixel.y()), static_cast<int>(pixel.x()));
+  };
+  EXPECT_EQ(kind_at(20, 15), kLit);
+  EXPECT_EQ(kind_at(21.5, 8.5), kDark);  // to the south of the house
+  EXPECT_EQ(kind_at(33, 24), kGreen);
+  EXPECT_EQ(kind_at(3, 15), kDark);
+  for (const Region& region : map.regions) {
+    EXPECT_GE(region.area_m2, RegionSettings{}.min_area_m2);
+    cv::Mat kinds;
+    map.kinds.copyTo(kinds, map.labels == region.label);
+    EXPECT_EQ(cv::countNonZero(kinds), 0);
+  }
 }
 
 TEST(Regions, ThereIsAMapAScaleAndTheCoarserHasFewerRegions) {
