@@ -265,6 +265,65 @@ TEST_F(WallFilterTest, ThePapersMethodEnduresWhatNoParticleExplains) {
   for (const Particle& particle : filter.particles()) EXPECT_GT(particle.weight, 0);
 }
 
+// Whatever is drawn, challenged and drawn again.
+TEST_F(WallFilterTest, ParticlesAreNoMoreThanAskedForAndCarryOneBelief) {
+  drive_round_the_corner();
+  for (const bool is_start_known : {false, true}) {
+    FilterSettings settings = seeded(1);
+    settings.particles = 300;
+    if (is_start_known) settings.start = StartBelief{{{1, 3}, 0}, 4, 0.2};
+    WallFilter filter(walls_, walls_.bounds(), settings);
+    for (const Step& step : steps_) {
+      filter.update(step.observation, step.motion);
+      const ParticleCloud& cloud = filter.particles();
+      EXPECT_LE(cloud.size(), settings.particles);
+      EXPECT_GE(cloud.size(), settings.particles / 2);
+      double total = 0;
+      for (const Particle& particle : cloud) total += particle.weight;
+      EXPECT_NEAR(total, 1, 1e-9);
+      EXPECT_GE(effective_count(cloud), 0.49 * static_cast<double>(cloud.size()));
+    }
+  }
+}
+
+TEST_F(WallFilterTest, WhatIsFoundTakesFewerParticles) {
+  drive_round_the_corner();
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{1, 3}, 0}, 1, 0.1};
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  Found found;
+  for (const Step& step : steps_) found = filter.update(step.observation, step.motion);
+  EXPECT_EQ(found.status, FindStatus::tracking);
+  EXPECT_LT(filter.particles().size(), settings.particles);
+}
+
+TEST_F(WallFilterTest, WhereNothingIsSeenNothingIsLeftUnexplained) {
+  drive(10);
+  for (const FindMethod method : {FindMethod::orientations, FindMethod::combined}) {
+    FilterSettings settings = seeded(1);
+    settings.method = method;
+    settings.start = StartBelief{{{1, 3}, 0}, 1, 0.1};
+    WallFilter filter(walls_, walls_.bounds(), settings);
+    Found found;
+    for (const Step& step : steps_) found = filter.update(step.observation, step.motion);
+    EXPECT_GT(found.explained, 0.1);
+    EXPECT_EQ(filter.update({}, {kStepS, kStepM, 0}).explained, found.explained);
+  }
+}
+
+// Section IV: each frame draws particles by their importance.
+TEST_F(WallFilterTest, ThePapersMethodDrawsParticlesAfterEachFrame) {
+  drive(10);
+  FilterSettings settings = seeded(1);
+  settings.method = FindMethod::orientations;
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  for (const Step& step : steps_) {
+    filter.update(step.observation, step.motion);
+    EXPECT_EQ(filter.particles().size(), settings.particles);
+    EXPECT_NEAR(effective_count(filter.particles()), 2000, 1e-6);
+  }
+}
+
 TEST_F(WallFilterTest, OneParticleIsAllowed) {
   drive(20);
   FilterSettings settings = seeded(1);
