@@ -450,6 +450,115 @@ TEST(Regions, ARoofOfSlowlyChangingLightIsOne) {
   EXPECT_NEAR(map.regions.front().area_m2, 96, 10);
 }
 
+// The features of the region in the middle of the yard's house.
+RoofFeatures house_features(const Picture& picture, const WallLines& lines, const Sun& sun) {
+  const RegionMap map = regions_of(picture);
+  const Eigen::Vector2d middle = map.grid.pixel_from_ground(kHouse.middle_m);
+  const int label = map.labels.at<int>(static_cast<int>(middle.y()), static_cast<int>(middle.x()));
+  const auto house = std::find_if(map.regions.begin(), map.regions.end(),
+                                  [&](const Region& region) { return region.label == label; });
+  EXPECT_NE(house, map.regions.end());
+  return roof_features(map, lines, sun)[static_cast<std::size_t>(house - map.regions.begin())];
+}
+
+TEST(Roofs, AHousesShapeIsMeasured) {
+  const Yard yard = one_house();
+  const auto [area, area2, width, filled, on_lines, shade] =
+      house_features(drawn(yard), walls_of(kHouse), yard.sun).shape;
+  EXPECT_NEAR(area, std::log(96), 0.1);
+  EXPECT_DOUBLE_EQ(area2, area * area);
+  EXPECT_NEAR(width, std::log(8), 0.15);
+  EXPECT_GT(filled, 0.85);
+  EXPECT_LE(filled, 1.05);
+  EXPECT_GT(on_lines, 0.85);
+  EXPECT_LE(on_lines, 1);
+  EXPECT_GT(shade, 0.2);
+}
+
+TEST(Roofs, OnlyLinesAlongTheOutlineCount) {
+  const Picture picture = drawn(one_house());
+  WallLines across;
+  for (const WallLine& wall : walls_of(kHouse)) {
+    const Eigen::Vector2d side = right_of(direction_of(wall));
+    for (double at_m = 0.5; at_m < wall.length_m(); at_m += 0.5) {
+      const Eigen::Vector2d on_wall = wall.begin_m + at_m * direction_of(wall);
+      across.push_back({on_wall - side, on_wall + side});
+    }
+  }
+  const auto on_lines = [&](const WallLines& lines) {
+    return house_features(picture, lines, {300, 45}).shape[4];
+  };
+  EXPECT_EQ(on_lines({}), 0);
+  EXPECT_LT(on_lines(across), 0.3);
+}
+
+// It is dark on the side of the shadow; on the other side the ground is lighter than the roof. A
+// high sun's shadow is looked for near the roof.
+TEST(Roofs, ARoofIsToldByItsShadow) {
+  const Yard yard = one_house();
+  const Picture picture = drawn(yard);
+  const auto shade = [](const Picture& of, const Sun& sun) {
+    return house_features(of, {}, sun).shape[5];
+  };
+  EXPECT_GT(shade(picture, yard.sun), 0.3);
+  EXPECT_LT(shade(picture, {120, 45}), 0);
+  Yard noon = yard;
+  noon.shadow_m = 0.6;
+  noon.sun.elevation_deg = 75;
+  EXPECT_GT(shade(drawn(noon), noon.sun), shade(drawn(noon), {300, 45}));
+}
+
+TEST(Roofs, AHousesLooksAreMeasured) {
+  const auto [texture, green, contrast] = house_features(drawn(one_house()), {}, {300, 45}).looks;
+  EXPECT_LT(texture, std::log(4));
+  EXPECT_EQ(green, 0);
+  EXPECT_GT(contrast, std::log(8));
+  Picture in_grass = drawn(one_house());
+  const cv::Vec3b roof = in_grass.bgr.at<cv::Vec3b>(150, 200);
+  cv::Mat not_roof;
+  cv::inRange(in_grass.bgr, cv::Scalar(roof) - cv::Scalar::all(20),
+              cv::Scalar(roof) + cv::Scalar::all(20), not_roof);
+  in_grass.bgr.setTo(cv::Scalar(50, 120, 60), ~not_roof);
+  EXPECT_GT(house_features(in_grass, {}, {300, 45}).looks[1], 0.9);
+}
+
+// Two regions side by side, 10 m in square, with these colours; the left one is surely a roof, the
+// other one perhaps.
+double perhaps_beside_a_roof(const Eigen::Vector3d& left_lab, const Eigen::Vector3d& right_lab,
+                             double neighbour_trust) {
+  RegionMap map;
+  map.grid = {0, 10, 0.2};
+  map.labels = cv::Mat::zeros(50, 100, CV_32SC1);
+  map.labels.colRange(50, 100).setTo(1);
+  map.label_count = 2;
+  map.regions.resize(2);
+  map.regions[0].mean_lab = left_lab;
+  map.regions[1].mean_lab = right_lab;
+  map.regions[1].label = 1;
+  for (Region& region : map.regions) region.area_m2 = 100;
+  std::vector<RoofFeatures> features(2);
+  features[0].shape[0] = 4;
+  RoofSettings settings;
+  settings.shape_bias = 0;
+  settings.shape_weights = {1, 0, 0, 0, 0, 0};
+  settings.looks_trust = 0;
+  settings.neighbour_trust = neighbour_trust;
+  return roof_probabilities(map, features, settings)[1];
+}
+
+// Two sides of a roof are of one colour, whatever the light; in grey, light alone tells.
+TEST(Roofs, ARoofsNeighbourOfALikeColourIsOneToo) {
+  const Eigen::Vector3d red(50, 40, 30);
+  const Eigen::Vector3d grey(50, 0, 0);
+  EXPECT_NEAR(perhaps_beside_a_roof(red, red, 0), 0.5, 1e-9);
+  EXPECT_GT(perhaps_beside_a_roof(red, red, 2), 0.95);
+  EXPECT_GT(perhaps_beside_a_roof(red, {75, 40, 30}, 2), 0.95);
+  EXPECT_LT(perhaps_beside_a_roof(red, {50, 10, 60}, 2), 0.55);
+  EXPECT_LT(perhaps_beside_a_roof(red, grey, 2), 0.55);
+  EXPECT_GT(perhaps_beside_a_roof(grey, {53, 0, 0}, 2), 0.95);
+  EXPECT_LT(perhaps_beside_a_roof(grey, {80, 0, 0}, 2), 0.55);
+}
+
 TEST(Roofs, ARoofThatOneScaleIsSureOfCounts) {
   const cv::Mat sure(3, 3, CV_32FC1, cv::Scalar::all(1));
   const cv::Mat none = cv::Mat::zeros(3, 3, CV_32FC1);
