@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <string>
 
 namespace milepost {
@@ -35,68 +34,23 @@ TEST_F(ModeWatchTest, OnePlaceThatExplainsWhatIsSeenForSomeWayIsFound) {
   EXPECT_TRUE(watch_.is_found());
 }
 
-// How many steps of `step_m` a mode that goes with the wheels takes to be found, turning at some of
-// the steps (counted from 1); it carries little of the belief up to the step `weak_until`.
-int steps_until_found(const std::map<int, double>& turns_rad, double step_m = 2,
-                      int weak_until = 0) {
-  ModeWatch watch{WatchSettings{}};
-  PlanPose pose;
-  int count = 0;
-  while (!watch.is_found() && count < 200) {
-    ++count;
-    const WheelMotion motion{0.2, step_m, turns_rad.contains(count) ? turns_rad.at(count) : 0};
-    pose = moved(pose, motion.distance_m, motion.turn_rad);
-    watch.observe({pose, count > weak_until ? 0.95 : 0.1, 0.3, 0.01}, 0.8, motion);
-  }
-  return count;
-}
-
 // One straight street looks like another; a bend tells them apart.
-TEST(ModeWatch, LessWayIsNeededRoundABend) {
-  const int straight = steps_until_found({});
-  EXPECT_GT(straight, 45);
-  EXPECT_LT(straight, 200);
-  const int with_bend = steps_until_found({{15, 1}});
-  EXPECT_LT(with_bend, 32);
-  EXPECT_EQ(steps_until_found({{15, -1}}), with_bend);
-  EXPECT_EQ(steps_until_found({{15, 0.5}}), straight);
-  EXPECT_EQ(steps_until_found({{14, 0.5}, {15, 0.5}}), with_bend);
-  EXPECT_EQ(steps_until_found({{12, 1}, {15, -1}}), with_bend);  // and back
-}
-
-TEST(ModeWatch, ABendBeforeThePlaceHeldTellsNothing) {
-  const int straight = steps_until_found({}, 2, 20);
-  EXPECT_GT(straight, 20 + 30);
-  EXPECT_EQ(steps_until_found({{15, 1}}, 2, 20), straight);
-  EXPECT_LT(steps_until_found({{25, 1}}, 2, 20), straight);
-}
-
-TEST(ModeWatch, WayIsWayBackwardsAndInLongSteps) {
-  EXPECT_EQ(steps_until_found({}, -2), steps_until_found({}, 2));
-  EXPECT_LT(steps_until_found({}, 12), steps_until_found({}, 2));
-}
-
-// What was found round a bend and lost takes as much to be found again as any.
-TEST(ModeWatch, AfterAJumpABendIsForgotten) {
-  const auto steps_after_a_jump = [](double turn_rad) {
+TEST_F(ModeWatchTest, LessWayIsNeededRoundABend) {
+  const auto steps_until_found = [](double turn_rad) {
     ModeWatch watch{WatchSettings{}};
     PlanPose pose;
-    for (int i = 0; i < 60; ++i) {
-      const WheelMotion motion{0.2, 2, i == 20 ? turn_rad : 0};
+    int count = 0;
+    while (!watch.is_found() && count < 100) {
+      const WheelMotion motion{0.2, 2, ++count == 15 ? turn_rad : 0};
       pose = moved(pose, motion.distance_m, motion.turn_rad);
       watch.observe({pose, 0.95, 0.3, 0.01}, 0.8, motion);
     }
-    EXPECT_TRUE(watch.is_found());
-    pose.enu_m.x() += 100;
-    int count = 0;
-    do {
-      pose = moved(pose, 2, 0);
-      watch.observe({pose, 0.95, 0.3, 0.01}, 0.8, kStep);
-      ++count;
-    } while (!watch.is_found() && count < 200);
     return count;
   };
-  EXPECT_EQ(steps_after_a_jump(1), steps_after_a_jump(0));
+  EXPECT_LT(steps_until_found(1), 32);
+  EXPECT_EQ(steps_until_found(-1), steps_until_found(1));
+  EXPECT_GT(steps_until_found(0.5), 45);
+  EXPECT_EQ(steps_until_found(0), steps_until_found(0.5));
 }
 
 TEST_F(ModeWatchTest, AHalfOfTheBeliefIsNotEnough) {
@@ -157,6 +111,22 @@ TEST_F(ModeWatchTest, WhatExplainsALittleLessThanItUsedToIsNotDoubted) {
   steps(600, 0.95, 0.8);
   steps(10, 0.95, 0.7);
   EXPECT_FALSE(watch_.is_doubtful());
+}
+
+TEST_F(ModeWatchTest, WayIsWayBackwardsAndInLongSteps) {
+  const auto steps_until_found_by = [](double step_m) {
+    ModeWatch watch{WatchSettings{}};
+    PlanPose pose;
+    int count = 0;
+    for (; !watch.is_found() && count < 200; ++count) {
+      pose = moved(pose, step_m, 0);
+      watch.observe({pose, 0.95, 0.3, 0.01}, 0.8, {0.2, step_m, 0});
+    }
+    return count;
+  };
+  EXPECT_LT(steps_until_found_by(2), 200);
+  EXPECT_EQ(steps_until_found_by(-2), steps_until_found_by(2));
+  EXPECT_LT(steps_until_found_by(12), steps_until_found_by(2));
 }
 
 TEST(FindStatus, AreNamed) {
