@@ -176,6 +176,19 @@ TEST(Shadows, TheThresholdPartsShadowFromGround) {
   EXPECT_EQ(shadow_threshold(std::array<double, 256>{}, {}), 0);
 }
 
+// The pixels of both classes count: a few dark ones are none.
+TEST(Shadows, AFewDarkPixelsAreNoShadow) {
+  std::array<double, 256> histogram{};
+  histogram[40] = 10;
+  histogram[120] = 9000;
+  histogram[200] = 900;
+  ShadowSettings settings;
+  settings.dark_share = 1;
+  const double threshold = shadow_threshold(histogram, settings);
+  EXPECT_GT(threshold, 120);
+  EXPECT_LE(threshold, 200);
+}
+
 TEST(Shadows, TheFarBorderIsTakenAndTheWallIsKept) {
   for (const double azimuth_deg : {20.0, 120.0, 300.0}) {
     Yard yard = one_house();
@@ -385,6 +398,33 @@ TEST(Segmentation, ColoursAndKindsPartRegions) {
   EXPECT_NE(label(30, 30), label(10, 10));
   EXPECT_NE(label(90, 50), label(10, 10));
   EXPECT_EQ(label(71, 71), label(10, 10));
+}
+
+TEST(Segmentation, PixelsAtACornerAreNeighbours) {
+  cv::Mat lab(60, 60, CV_32FC3, cv::Scalar(50, 0, 0));
+  lab(cv::Rect(10, 10, 20, 20)).setTo(cv::Scalar(80, 40, 0));
+  lab(cv::Rect(30, 30, 20, 20)).setTo(cv::Scalar(80, 40, 0));
+  lab(cv::Rect(0, 30, 30, 30)).setTo(cv::Scalar(20, -40, 0));
+  const cv::Mat kinds = cv::Mat::zeros(lab.size(), CV_8UC1);
+  const Segmentation found = segmented(lab, kinds, 0.2, {});
+  EXPECT_EQ(found.count, 3);
+  EXPECT_EQ(found.labels.at<int>(20, 20), found.labels.at<int>(40, 40));
+}
+
+// Rough ground is one region; a step of less than its grain parts even ground.
+TEST(Segmentation, ARegionGrowsByItsOwnContrast) {
+  cv::Mat lab(60, 120, CV_32FC3, cv::Scalar(50, 0, 0));
+  cv::Mat noise(60, 60, CV_32FC1);
+  cv::RNG(3).fill(noise, cv::RNG::UNIFORM, -6, 6);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) lab.at<cv::Vec3f>(y, x)[0] += noise.at<float>(y, x);
+  }
+  lab.colRange(90, 120).setTo(cv::Scalar(54, 0, 0));
+  const cv::Mat kinds = cv::Mat::zeros(lab.size(), CV_8UC1);
+  const Segmentation found = segmented(lab, kinds, 0.2, {});
+  EXPECT_EQ(found.labels.at<int>(30, 30), found.labels.at<int>(10, 10));
+  EXPECT_EQ(found.labels.at<int>(30, 30), found.labels.at<int>(50, 50));
+  EXPECT_NE(found.labels.at<int>(30, 80), found.labels.at<int>(30, 100));
 }
 
 TEST(Regions, ARoofIsMeasured) {
