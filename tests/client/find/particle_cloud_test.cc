@@ -196,6 +196,7 @@ TEST(ParticleCloud, ResamplingEndsWithTheLastParticle) {
 TEST(ParticleCloud, EnoughParticlesAreAskedByWhereTheyLie) {
   const auto enough = [](const Eigen::Vector2d& step_m, double turn_rad) {
     ParticleCloud cloud;
+    cloud.reserve(100);
     for (int i = 0; i < 100; ++i) cloud.push_back({{step_m * i, turn_rad * i}, 0.01});
     return enough_particles(cloud, 1, 0.1);
   };

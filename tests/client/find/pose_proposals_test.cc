@@ -87,6 +87,7 @@ TEST(PoseProposals, HeadingsAreSpread) {
   const WallObservation seen{{{{-0.1, 0.1}, {std::numbers::pi / 2}}}, {}};
   Random random(2);
   std::vector<double> off_rad;
+  off_rad.reserve(401);
   for (const Particle& particle : proposed_cloud(401, seen, walls, {{-9, 0}, {9, 9}}, 60, random)) {
     off_rad.push_back(std::abs(std::sin(particle.pose.heading_rad)));
   }

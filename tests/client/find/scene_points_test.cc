@@ -22,6 +22,13 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+std::vector<double> ahead_of(const std::vector<ScenePoint>& points) {
+  std::vector<double> ahead_m;
+  ahead_m.reserve(points.size());
+  for (const ScenePoint& point : points) ahead_m.push_back(point.camera_m.z());
+  return ahead_m;
+}
+
 TEST(ScenePoints, StandAsFarAsTheWallIs) {
   const cv::Mat wall = painted_wall();
   ScenePointTracker tracker(kView, {});
@@ -51,9 +58,7 @@ TEST(ScenePoints, AWallNearbyIsSeenToo) {
   tracker.observe(seen(wall, kWallM - 3.5, 0), {0.2, 0.5, 0});
   const auto points = tracker.observe(seen(wall, kWallM - 3, 0), {0.2, 0.5, 0});
   ASSERT_GT(points.size(), 100U);
-  std::vector<double> ahead_m;
-  for (const ScenePoint& point : points) ahead_m.push_back(point.camera_m.z());
-  EXPECT_NEAR(median(ahead_m), 3, 0.1);
+  EXPECT_NEAR(median(ahead_of(points)), 3, 0.1);
 }
 
 TEST(ScenePoints, ShortStepsAddUp) {
@@ -76,9 +81,7 @@ TEST(ScenePoints, ATurnOnTheSpotBringsNewPoints) {
   for (int i = 11; i >= 0; --i) tracker.observe(seen(wall, 0, -0.1 * i), {0.2, 0, 0.1});
   const auto points = tracker.observe(seen(wall, 1, 0), {0.2, 1, 0});
   ASSERT_GT(points.size(), 100U);
-  std::vector<double> ahead_m;
-  for (const ScenePoint& point : points) ahead_m.push_back(point.camera_m.z());
-  EXPECT_NEAR(median(ahead_m), kWallM - 1, 0.5);
+  EXPECT_NEAR(median(ahead_of(points)), kWallM - 1, 0.5);
 }
 
 // Of rows of windows one looks like the other: few are taken for their neighbours.

@@ -19,6 +19,7 @@ using testing::seen;
 // How far ahead the wall stands, by the beams: their median, in plan view.
 double wall_ahead_m(const std::vector<Beam>& beams) {
   std::vector<double> ahead_m;
+  ahead_m.reserve(beams.size());
   for (const Beam& beam : beams) ahead_m.push_back(beam.range_m * std::cos(beam.bearing_rad));
   std::ranges::sort(ahead_m);
   return ahead_m[ahead_m.size() / 2];

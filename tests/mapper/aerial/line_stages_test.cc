@@ -74,6 +74,7 @@ TEST(LineGrid, MissesNoneWithinACellsWidth) {
   std::uniform_real_distribution<double> place(-40, 40);
   std::uniform_real_distribution<double> way(-1, 1);
   WallLines lines;
+  lines.reserve(300);
   for (int i = 0; i < 300; ++i) {
     const double x = place(random);
     const double y = place(random);

@@ -92,6 +92,7 @@ TEST(WallLayer, TheSameWallsGiveTheSameBytes) {
 TEST(WallLayer, ACellHoldsSoManyWallsAndNoMore) {
   const TempFolder folder;
   std::vector<Wall> walls;
+  walls.reserve(65537);
   for (int i = 0; i < 65537; ++i) {
     const double north_deg = 49.0001 + 6e-8 * i;
     walls.push_back({{north_deg, 8.4001}, {north_deg, 8.4002}, 0.4});
