@@ -209,6 +209,27 @@ TEST(Shadows, TheFarBorderIsTakenAndTheWallIsKept) {
   }
 }
 
+// A shadow's sides run as the light does; what is lit elsewhere is no border of a shadow.
+TEST(Shadows, OnlyTheFarSideIsAFarBorder) {
+  const Yard yard{{40, 30}, {House{{20, 15}, 12, 8, 0}}, {0, 45}, 3, {}};
+  const Picture picture = drawn(yard);
+  const cv::Mat grey = grey_of(picture);
+  const cv::Mat shadows = shadow_mask(grey, kShadowThreshold, kPixelM, {});
+  const cv::Mat borders = far_borders(grey, shadows, yard.sun, kPixelM, {});
+  const auto count_in = [&](double west_m, double south_m, double east_m, double north_m) {
+    const Eigen::Vector2d from = picture.grid.pixel_from_ground({west_m, north_m});
+    const Eigen::Vector2d to = picture.grid.pixel_from_ground({east_m, south_m});
+    const cv::Rect box(cv::Point(static_cast<int>(from.x()), static_cast<int>(from.y())),
+                       cv::Point(static_cast<int>(to.x()), static_cast<int>(to.y())));
+    return cv::countNonZero(borders(box));
+  };
+  EXPECT_GT(count_in(15, 7.5, 25, 8.5), 200);
+  EXPECT_EQ(count_in(25.5, 8.8, 26.5, 10.8), 0);
+  EXPECT_EQ(count_in(13.5, 8.8, 14.5, 10.8), 0);
+  EXPECT_EQ(count_in(0, 0, 40, 7.5), 0);
+  EXPECT_EQ(count_in(15, 8.6, 25, 10.5), 0);
+}
+
 TEST(Shadows, NarrowDarkLinesAreNone) {
   cv::Mat grey(200, 200, CV_8UC1, cv::Scalar::all(150));
   cv::line(grey, {0, 100}, {199, 100}, cv::Scalar::all(30), 3);
@@ -425,6 +446,15 @@ TEST(Segmentation, ARegionGrowsByItsOwnContrast) {
   EXPECT_EQ(found.labels.at<int>(30, 30), found.labels.at<int>(10, 10));
   EXPECT_EQ(found.labels.at<int>(30, 30), found.labels.at<int>(50, 50));
   EXPECT_NE(found.labels.at<int>(30, 80), found.labels.at<int>(30, 100));
+}
+
+// A small region would take in more than that; the large one beside it does not.
+TEST(Segmentation, BothRegionsMustAgreeToJoin) {
+  cv::Mat lab(60, 60, CV_32FC3, cv::Scalar(50, 0, 0));
+  lab(cv::Rect(20, 20, 3, 3)).setTo(cv::Scalar(54, 0, 0));
+  const cv::Mat kinds = cv::Mat::zeros(lab.size(), CV_8UC1);
+  EXPECT_EQ(segmented(lab, kinds, 0.2, {60, 0}).count, 2);
+  EXPECT_EQ(segmented(lab, kinds, 0.2, {60, 1}).count, 1);
 }
 
 TEST(Regions, ARoofIsMeasured) {
