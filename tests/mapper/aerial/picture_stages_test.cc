@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
+#include "mapper/aerial/block.h"
 #include "mapper/aerial/clutter.h"
 #include "mapper/aerial/edge_maps.h"
 #include "mapper/aerial/progressive_hough.h"
@@ -14,6 +17,7 @@
 #include "mapper/aerial/roofs.h"
 #include "mapper/aerial/segmentation.h"
 #include "mapper/aerial/shadows.h"
+#include "mapper/aerial/stage_pictures.h"
 #include "mapper/aerial/sun_evidence.h"
 #include "tests/mapper/aerial/drawn_yard.h"
 
@@ -697,8 +701,51 @@ TEST(Roofs, AHouseIsOneAndARoadIsNone) {
   }
 }
 
+// The lines of a picture before the stage of roofs.
+WallLines lines_before_roofs(const Picture& picture, const Sun& sun, std::set<Stage> without = {}) {
+  ExtractionSettings settings;
+  settings.without = std::move(without);
+  settings.without.insert(Stage::roofs);
+  return block_walls(picture, {sun, kShadowThreshold}, settings, StagePictures("", ""));
+}
+
+TEST(Block, FarBordersOfShadowsAreLeftOut) {
+  const Yard yard{{40, 30}, {House{{20, 15}, 12, 8, 0}}, {0, 45}, 3, {}};
+  const Picture picture = drawn(yard);
+  const WallLine border{{14, 8}, {26, 8}};
+  EXPECT_FALSE(is_found(border, lines_before_roofs(picture, yard.sun), 0.3));
+  EXPECT_TRUE(is_found(border, lines_before_roofs(picture, yard.sun, {Stage::shadows}), 0.3));
+  for (const WallLine& wall : walls_of(yard.houses.front())) {
+    EXPECT_TRUE(is_found(wall, lines_before_roofs(picture, yard.sun), 0.3));
+  }
+}
+
+// Within trees there are no lines; on their border there may be some.
+TEST(Block, TreesAreLeftOutWhetherGreenOrRough) {
+  const Yard yard{{30, 20}, {}, {0, 45}, 0, {{8, 10}, {20, 10}}};
+  Picture grey = drawn(yard);
+  cv::cvtColor(grey_of(grey), grey.bgr, cv::COLOR_GRAY2BGR);
+  Picture green = drawn({{30, 20}, {}, {}, 0, {}});  // a meadow with paths
+  green.bgr.setTo(cv::Scalar(50, 120, 60));
+  for (int y = 40; y < 160; y += 20) {
+    green.bgr(cv::Rect(50, y, 200, 8)).setTo(cv::Scalar(40, 90, 50));
+  }
+  for (const Picture& picture : {green, grey}) {
+    const std::size_t without = lines_before_roofs(picture, yard.sun, {Stage::vegetation}).size();
+    EXPECT_GE(without, 4U);
+    EXPECT_EQ(lines_before_roofs(picture, yard.sun).size(), 0U);
+  }
+}
+
+TEST(Block, WallsInGrassStay) {
+  const WallLines lines = lines_before_roofs(flat_roof_in_grass(), {0, 45});
+  for (const WallLine& wall : walls_of(House{{12, 10}, 12, 8, 0})) {
+    EXPECT_TRUE(is_found(wall, lines, 0.3));
+  }
+}
+
 TEST(SunEvidence, ShadowsTellTheAzimuth) {
-  for (const double azimuth_deg : {10.0, 100.0, 190.0, 315.0}) {
+  for (const double azimuth_deg : {1.0, 10.0, 100.0, 190.0, 315.0, 359.0}) {
     Yard yard{{80, 60}, {}, {azimuth_deg, 45}, 3, {}};
     for (const double x_m : {15.0, 40.0, 65.0}) {
       yard.houses.push_back({{x_m, 15}, 12, 8, x_m});
