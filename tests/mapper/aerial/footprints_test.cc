@@ -124,7 +124,10 @@ TEST(Footprints, WhatIsBrokenIsNamed) {
   EXPECT_THAT(refusal(geometry("Polygon", "7")), HasSubstr("\"coordinates\""));
   EXPECT_THAT(refusal(geometry("MultiPolygon", "[7]")),
               AllOf(HasSubstr("coordinates[0]"), HasSubstr("a list of rings")));
-  EXPECT_THAT(refusal(polygon("7")), AllOf(HasSubstr("coordinates[0]"), HasSubstr("at least 4")));
+  for (const char* const ring : {"7", R"({"a": 1, "b": 2, "c": 3, "d": 4})"}) {
+    EXPECT_THAT(refusal(polygon(ring)),
+                AllOf(HasSubstr("coordinates[0]"), HasSubstr("at least 4")));
+  }
   EXPECT_EQ(read_footprints("missing.geojson").error().code, ErrorCode::not_found);
 }
 
