@@ -20,4 +20,15 @@ double evidence_per_m(const PlanPose& pose, double wheel_scale, const WallObserv
          settings.orientations * std::log(settings.least_importance + importance);
 }
 
+void weigh_by_evidence(ParticleCloud& cloud, const WallObservation& observation, double way_m,
+                       const WallIndex& walls, const EvidenceSettings& settings) {
+  if (observation.beams.empty()) return;
+  std::vector<double> log_likelihoods;
+  for (const Particle& particle : cloud) {
+    log_likelihoods.push_back(
+        way_m * evidence_per_m(particle.pose, particle.wheel_scale, observation, walls, settings));
+  }
+  weigh_cloud(cloud, log_likelihoods);
+}
+
 }  // namespace milepost

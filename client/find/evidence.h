@@ -2,12 +2,22 @@
 // how they are turned (decision 22).
 #pragma once
 
+#include "client/find/particle_cloud.h"
 #include "client/find/plan_pose.h"
 #include "client/find/range_agreement.h"
 #include "client/find/wall_index.h"
 #include "client/find/wall_observer.h"
 
 namespace milepost {
+
+// Broad while few particles have to cover an area, sharp about a place that is found.
+inline constexpr RangeSettings kBroadRanges{1.5, 0.05};
+inline constexpr RangeSettings kSharpRanges{0.5, 0.02};
+
+// However far it went since the last frame that showed something, this is no more news.
+inline constexpr double kMaxEvidenceWayM = 5;
+// How much a frame says of poses that were proposed by it.
+inline constexpr double kCandidateWayM = 4;
 
 struct EvidenceSettings {
   RangeSettings ranges;
@@ -22,5 +32,10 @@ struct EvidenceSettings {
 // after frame on the same walls, by the same wheels, are hardly news.
 double evidence_per_m(const PlanPose& pose, double wheel_scale, const WallObservation& observation,
                       const WallIndex& walls, const EvidenceSettings& settings);
+
+// Weighs a cloud by what an observation says over so many metres of way. One without beams says
+// nothing.
+void weigh_by_evidence(ParticleCloud& cloud, const WallObservation& observation, double way_m,
+                       const WallIndex& walls, const EvidenceSettings& settings);
 
 }  // namespace milepost

@@ -39,7 +39,17 @@ PlanBox widened(PlanBox box, double by_m) {
 }
 
 PlanBox area_of(const FinderSettings& settings, const WallIndex& walls, const LocalFrame& frame) {
-  if (!settings.area) return widened(walls.bounds(), settings.area_margin_m);
+  if (!settings.area) {
+    PlanBox box = walls.bounds();
+    if (settings.start) {
+      const GeoPoint& start = settings.start->position;
+      const Eigen::Vector2d start_m = plan_from_geo(frame, start.latitude_deg, start.longitude_deg);
+      const double reach_m = 3 * settings.start->sigma_m;
+      box.min_m = box.min_m.cwiseMin(start_m - Eigen::Vector2d::Constant(reach_m));
+      box.max_m = box.max_m.cwiseMax(start_m + Eigen::Vector2d::Constant(reach_m));
+    }
+    return widened(box, settings.area_margin_m);
+  }
   const Bounds& area = *settings.area;
   return {plan_from_geo(frame, area.south_deg, area.west_deg),
           plan_from_geo(frame, area.north_deg, area.east_deg)};

@@ -30,8 +30,8 @@ struct FinderSettings {
   std::size_t particles = 2000;
   std::uint64_t seed = 1;
   std::optional<FindStart> start;  // none: anywhere in the area
-  // Where the vehicle may be; none: within area_margin_m of the walls. Walls outside of it are seen
-  // from within.
+  // Where the vehicle may be; none: within area_margin_m of the box around the walls and a known
+  // start. Walls outside of it are seen from within.
   std::optional<Bounds> area;
   double area_margin_m = 10;
 };

@@ -45,7 +45,7 @@ bool ModeWatch::is_enough() const {
 }
 
 FindStatus ModeWatch::observe(const BeliefMode& mode, std::optional<double> explained,
-                              const WheelMotion& motion) {
+                              bool is_rivalled, const WheelMotion& motion) {
   drive(motion);
   if (explained) {
     lately_ += kLatelyRate * (*explained - lately_);
@@ -63,7 +63,7 @@ FindStatus ModeWatch::observe(const BeliefMode& mode, std::optional<double> expl
     held_.way_m += std::abs(motion.distance_m);
     held_.explained_m += std::abs(motion.distance_m) * *explained;
   }
-  found_ = holds && (found_ || is_enough());
+  found_ = holds && (found_ || (is_enough() && !is_rivalled));
   was_found_ = was_found_ || found_;
   if (!found_) return was_found_ ? FindStatus::lost : FindStatus::initializing;
   return explained ? FindStatus::tracking : FindStatus::predicted;

@@ -35,8 +35,8 @@ class ModeWatch {
   explicit ModeWatch(const WatchSettings& settings) : settings_(settings) {}
 
   // `explained`: the share of what the frame shows that the walls about the mode explain; none if
-  // it shows nothing.
-  FindStatus observe(const BeliefMode& mode, std::optional<double> explained,
+  // it shows nothing. `is_rivalled`: another place explains the way behind nearly as well.
+  FindStatus observe(const BeliefMode& mode, std::optional<double> explained, bool is_rivalled,
                      const WheelMotion& motion);
 
   bool is_found() const { return found_; }

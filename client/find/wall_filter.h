@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "client/find/contest.h"
 #include "client/find/mode_watch.h"
 #include "client/find/particle_cloud.h"
 #include "client/find/sight_history.h"
@@ -51,14 +52,12 @@ class WallFilter {
 
  private:
   void weigh_by_importance(const WallObservation& observation);
-  void weigh_by_evidence(ParticleCloud& cloud, const WallObservation& observation,
-                         double way_m) const;
-  double weigh_by_history(ParticleCloud& cloud) const;
+  void weigh_by_way(const WallObservation& observation, double way_m);
   void start_from(const WallObservation& observation);
   std::optional<double> explained_by(const BeliefMode& mode,
                                      const WallObservation& observation) const;
+  bool is_rivalled() const;
   bool is_challenged() const;
-  void challenge(const WallObservation& observation);
   void resample();
 
   const WallIndex& walls_;
@@ -68,6 +67,7 @@ class WallFilter {
   ParticleCloud cloud_;
   ModeWatch watch_;
   SightHistory history_;
+  Contest contest_;
   bool is_started_ = false;  // from a first observation
   double way_m_ = 0;         // since beams were weighed
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -85,8 +84,6 @@ std::vector<OutlinePoint> outline_of(const std::vector<cv::Point>& contour) {
 Region region_of(const RegionMap& map, int label, const Sums& sums) {
   const double pixel_m2 = map.grid.metres_per_pixel * map.grid.metres_per_pixel;
   const std::vector<cv::Point> contour = contour_of(map, label, sums);
-  std::vector<cv::Point> hull;
-  cv::convexHull(contour, hull);
   const cv::Size2f rectangle = cv::minAreaRect(contour).size;
   Region region;
   region.label = label;
@@ -94,7 +91,6 @@ Region region_of(const RegionMap& map, int label, const Sums& sums) {
   region.length_m = std::max({rectangle.width, rectangle.height, 1.0F}) * map.grid.metres_per_pixel;
   region.width_m = std::max(std::min(rectangle.width, rectangle.height) * map.grid.metres_per_pixel,
                             map.grid.metres_per_pixel);
-  region.hull_ratio = cv::contourArea(hull) / std::max(cv::contourArea(contour), 1.0);
   region.mean_lab = sums.lab / sums.pixels;
   region.texture = std::sqrt(std::max(
       0.0, sums.squared_lightness / sums.pixels - region.mean_lab[0] * region.mean_lab[0]));

@@ -24,7 +24,6 @@ struct Region {
   double area_m2 = 0;
   double length_m = 0;       // of the smallest rectangle around it
   double width_m = 0;        // the same, at most the length
-  double hull_ratio = 1;     // area of its convex hull by that within its outline
   double texture = 0;        // standard deviation of L
   Eigen::Vector3d mean_lab;  // CIE Lab, L 0 to 100
   std::vector<OutlinePoint> outline;

@@ -30,13 +30,14 @@ TEST(CameraMotion, IsThatOfALevelCamera) {
 }
 
 // Points seen before and after a motion, with noise, and some that are wrong.
-std::vector<RayPair> pairs_of(const CameraMotion& motion, double sigma, int count, int wrong) {
+std::vector<RayPair> pairs_of(const CameraMotion& motion, double sigma, int count, int wrong,
+                              double away_m = 15) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1, 1);
   std::normal_distribution<double> noise(0, sigma);
   std::vector<RayPair> pairs;
   for (int i = 0; i < count; ++i) {
-    const double depth_m = 15 + 10 * place(random);
+    const double depth_m = away_m + 10 * place(random);
     const Eigen::Vector3d point(0.7 * depth_m * place(random), 0.5 * depth_m * place(random),
                                 depth_m);
     const Eigen::Vector3d now = motion.now_from_before * (point - motion.way_m);
@@ -61,6 +62,17 @@ TEST(EpipolarDistance, IsNoughtForPointsThatStandStill) {
   }
 }
 
+// Sampson's: each of both rays is as far from where it should be as from the other's line.
+TEST(EpipolarDistance, IsTheRaysOwn) {
+  const CameraMotion ahead{Eigen::Matrix3d::Identity(), {0, 0, 0.01}};
+  const RayPair pair{{0.2, 0, 1}, {0.2, 0.003, 1}};
+  EXPECT_NEAR(std::abs(epipolar_distance(pair, ahead)), 0.003 / std::sqrt(2), 1e-5);
+}
+
+TEST(EpipolarDistance, IsNoughtWithoutAWay) {
+  EXPECT_EQ(epipolar_distance({{0.2, 0.1, 1}, {0.3, 0.1, 1}}, {}), 0);
+}
+
 TEST(RefinedMotion, MendsWhatTheWheelsTell) {
   const WheelMotion wheels{0.2, 2, 0.05};
   CameraMotion truth = camera_motion(wheels);
@@ -75,6 +87,15 @@ TEST(RefinedMotion, MendsWhatTheWheelsTell) {
   EXPECT_LT(degrees_between(refined.now_from_before, truth.now_from_before), 0.08);
   EXPECT_NEAR(refined.way_m.norm(), 2, 1e-9);
   EXPECT_LT(std::acos(refined.way_m.dot(truth.way_m) / 4) / kRadPerDeg, 0.6);
+}
+
+// Far away, a way to the side hardly moves a point: its noise is not taken for one.
+TEST(RefinedMotion, WhatThePairsCannotTellIsAsTheWheelsSay) {
+  const CameraMotion start = camera_motion({0.2, 1, 0});
+  const std::vector<RayPair> pairs = pairs_of(start, 0.002, 30, 0, 2000);
+  const CameraMotion refined = refined_motion(pairs, start, 0.002);
+  EXPECT_LT(std::acos(refined.way_m.normalized().z()) / kRadPerDeg, 4);
+  EXPECT_LT(degrees_between(refined.now_from_before, start.now_from_before), 0.3);
 }
 
 TEST(RefinedMotion, WithoutPairsTheWheelsAreBelieved) {

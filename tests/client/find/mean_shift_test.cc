@@ -74,6 +74,38 @@ TEST(MeanShift, APlaceOnTheCornerOfBinsIsNotOverlooked) {
   EXPECT_NEAR(densest_mode(cloud, {5, 0.35}).mass, 0.6, 0.01);
 }
 
+TEST(MeanShift, PlacesBesideEachOtherAreToldApart) {
+  for (const Eigen::Vector2d& apart_m : {Eigen::Vector2d(40, 0), Eigen::Vector2d(0, 40)}) {
+    Random random(1);
+    ParticleCloud cloud;
+    add_cluster(cloud, {{2.5, 2.5}, 1}, 0.4, random);
+    add_cluster(cloud, {Eigen::Vector2d(2.5, 2.5) + apart_m, 1}, 0.6, random);
+    EXPECT_NEAR(densest_mode(cloud, {5, 0.35}).mass, 0.6, 0.01);
+  }
+}
+
+// Particles that turned round once more than others look the same way.
+TEST(MeanShift, OfManyPlacesTheHeaviestIsFoundHoweverOftenItTurned) {
+  Random random(1);
+  ParticleCloud cloud;
+  for (int i = 0; i < 5; ++i) add_cluster(cloud, {{100.0 * i + 2.5, 2.5}, 1}, 0.14, random);
+  for (int turns = 0; turns < 3; ++turns) {
+    add_cluster(cloud, {{502.5, 2.5}, 1 + 2 * std::numbers::pi * turns}, 0.1, random);
+  }
+  const BeliefMode mode = densest_mode(cloud, {5, 0.35});
+  EXPECT_NEAR(mode.mass, 0.3, 0.01);
+  EXPECT_NEAR(mode.pose.enu_m.x(), 502.5, 0.3);
+}
+
+// From a lone particle by a few on the way to the place that most of the belief is in.
+TEST(MeanShift, ClimbsUntilItSettles) {
+  ParticleCloud cloud(900, {{{7.8, 7.8}, 0.1}, 0.001});
+  cloud.insert(cloud.end(), 90, {{{4, 4}, 0.1}, 0.0011});
+  cloud.push_back({{{0.1, 0.1}, 0.1}, 0.002});
+  const BeliefMode mode = densest_mode(cloud, {8, 0.35});
+  EXPECT_NEAR(mode.pose.enu_m.x(), (7.8 * 900 + 4 * 90 * 1.1) / (900 + 90 * 1.1), 1e-3);
+}
+
 // The heaviest particle of the only bin sees a part of its place.
 TEST(MeanShift, ClimbsFromTheEdgeOfItsBin) {
   Random random(1);

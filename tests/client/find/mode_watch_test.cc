@@ -14,7 +14,8 @@ class ModeWatchTest : public ::testing::Test {
  protected:
   FindStatus step(double mass, std::optional<double> explained) {
     north_m_ += kStep.distance_m;
-    return watch_.observe({{{jump_east_m_, north_m_}, 0}, mass, 0.3, 0.01}, explained, kStep);
+    return watch_.observe({{{jump_east_m_, north_m_}, 0}, mass, 0.3, 0.01}, explained, is_rivalled_,
+                          kStep);
   }
 
   FindStatus steps(int count, double mass, std::optional<double> explained) {
@@ -31,7 +32,7 @@ class ModeWatchTest : public ::testing::Test {
     while (!watch.is_found() && count < 150) {
       const WheelMotion motion{0.2, 2, ++count == 10 ? turn_rad : 0};
       pose = moved(pose, motion.distance_m, motion.turn_rad);
-      watch.observe({pose, count > uncertain_steps ? 0.95 : 0.5, 0.3, 0.01}, 0.8, motion);
+      watch.observe({pose, count > uncertain_steps ? 0.95 : 0.5, 0.3, 0.01}, 0.8, false, motion);
     }
     return count;
   }
@@ -39,6 +40,7 @@ class ModeWatchTest : public ::testing::Test {
   ModeWatch watch_{WatchSettings{}};
   double north_m_ = 0;
   double jump_east_m_ = 0;
+  bool is_rivalled_ = false;
 };
 
 TEST_F(ModeWatchTest, OnePlaceThatExplainsWhatIsSeenForSomeWayIsFound) {
@@ -85,6 +87,15 @@ TEST_F(ModeWatchTest, AllOfTheBeliefIsNotEnoughWhereNothingIsExplained) {
   EXPECT_EQ(steps(100, 1, 0.2), FindStatus::initializing);
 }
 
+TEST_F(ModeWatchTest, OneWithARivalIsNotFoundButStaysFound) {
+  is_rivalled_ = true;
+  EXPECT_EQ(steps(100, 0.95, 0.8), FindStatus::initializing);
+  is_rivalled_ = false;
+  EXPECT_EQ(step(0.95, 0.8), FindStatus::tracking);
+  is_rivalled_ = true;
+  EXPECT_EQ(step(0.95, 0.8), FindStatus::tracking);
+}
+
 TEST_F(ModeWatchTest, APlaceThatJumpsIsAnotherOne) {
   for (int i = 0; i < 50; ++i) {
     jump_east_m_ = i % 2 == 0 ? 0 : 30;
@@ -94,7 +105,7 @@ TEST_F(ModeWatchTest, APlaceThatJumpsIsAnotherOne) {
 
 TEST_F(ModeWatchTest, StandingStillFindsNothing) {
   for (int i = 0; i < 200; ++i) {
-    EXPECT_EQ(watch_.observe({{{0, 0}, 0}, 1, 0.3, 0.01}, 0.9, {0.2, 0, 0}),
+    EXPECT_EQ(watch_.observe({{{0, 0}, 0}, 1, 0.3, 0.01}, 0.9, false, {0.2, 0, 0}),
               FindStatus::initializing);
   }
 }
@@ -130,6 +141,28 @@ TEST_F(ModeWatchTest, WhatExplainsLessThanItUsedToIsDoubted) {
   EXPECT_FALSE(watch_.is_doubtful());
   steps(20, 0.95, 0.1);
   EXPECT_TRUE(watch_.is_doubtful());
+}
+
+TEST_F(ModeWatchTest, WhatExplainsALittleLessThanItUsedToIsNotDoubted) {
+  steps(600, 0.95, 0.8);
+  steps(10, 0.95, 0.7);
+  EXPECT_FALSE(watch_.is_doubtful());
+}
+
+TEST_F(ModeWatchTest, WayIsWayBackwardsAndInLongSteps) {
+  const auto steps_until_found_by = [](double step_m) {
+    ModeWatch watch{WatchSettings{}};
+    PlanPose pose;
+    int count = 0;
+    for (; !watch.is_found() && count < 200; ++count) {
+      pose = moved(pose, step_m, 0);
+      watch.observe({pose, 0.95, 0.3, 0.01}, 0.8, false, {0.2, step_m, 0});
+    }
+    return count;
+  };
+  EXPECT_LT(steps_until_found_by(2), 200);
+  EXPECT_EQ(steps_until_found_by(-2), steps_until_found_by(2));
+  EXPECT_LT(steps_until_found_by(12), steps_until_found_by(2));
 }
 
 TEST(FindStatus, AreNamed) {

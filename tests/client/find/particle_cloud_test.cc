@@ -67,6 +67,17 @@ TEST(ParticleCloud, WithoutNoiseAllMoveAlike) {
   }
 }
 
+TEST(ParticleCloud, NoiseGrowsWithTimeWhereTheWayIsShort) {
+  Random random(1);
+  const WallIndex walls({{{-50, 900}, {50, 900}, 0.1}});
+  const PlanBox area{{-1000, -1000}, {1000, 1000}};
+  ParticleCloud cloud(4000, {{{0, 0}, 0}, 1.0 / 4000});
+  move_cloud(cloud, {4, 0.5, 0}, {0.1, 0.03, 0}, walls, area, Crossing::drawn_anew, random);
+  double along2 = 0;
+  for (const Particle& particle : cloud) along2 += std::pow(particle.pose.enu_m.y() - 0.5, 2);
+  EXPECT_NEAR(std::sqrt(along2 / 4000), 0.2, 0.01);
+}
+
 TEST(ParticleCloud, NoiseGrowsWithTimeAndWay) {
   Random random(1);
   const WallIndex walls({{{-50, 900}, {50, 900}, 0.1}});
@@ -195,6 +206,49 @@ TEST(ParticleCloud, ResamplingKeepsSharesToOneParticle) {
     }
     for (std::size_t i = 0; i < counts.size(); ++i) EXPECT_NEAR(counts[i], 200 * weights[i], 1);
   }
+}
+
+// On the average a particle that is due 0.6 times comes 0.6 times.
+TEST(ParticleCloud, ResamplingFavoursNone) {
+  Random random(3);
+  const ParticleCloud cloud = {{{{0, 0}, 0}, 0.003}, {{{1, 0}, 0}, 0.997}};
+  int first = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    first += resampled(cloud, 200, random).front().pose.enu_m.x() < 0.5 ? 1 : 0;
+  }
+  EXPECT_NEAR(first / 2000.0, 0.6, 0.05);
+}
+
+// Rounded, the weights may add up to less than 1.
+TEST(ParticleCloud, ResamplingEndsWithTheLastParticle) {
+  Random random(3);
+  const ParticleCloud cloud = {{{{0, 0}, 0}, 0.5}, {{{1, 0}, 0}, 0.4}};
+  int last = 0;
+  for (const Particle& particle : resampled(cloud, 100, random)) {
+    last += particle.pose.enu_m.x() == 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(last, 50, 1);
+}
+
+TEST(ParticleCloud, EnoughParticlesAreAskedByWhereTheyLie) {
+  const auto enough = [](const Eigen::Vector2d& step_m, double turn_rad) {
+    ParticleCloud cloud;
+    cloud.reserve(100);
+    for (int i = 0; i < 100; ++i) cloud.push_back({{step_m * i, turn_rad * i}, 0.01});
+    return enough_particles(cloud, 1, 0.1);
+  };
+  EXPECT_EQ(enough({0, 0}, 0), 200U);
+  EXPECT_GT(enough({1, 0}, 0), 1000U);
+  EXPECT_EQ(enough({0, 1}, 0), enough({1, 0}, 0));
+  EXPECT_EQ(enough({0, 0}, 2 * std::numbers::pi), 200U);  // all look the same way
+}
+
+TEST(ParticleCloud, ABeliefOfManyHeadingsTakesMoreParticles) {
+  Random random(1);
+  const auto enough = [&](double sigma_rad) {
+    return enough_particles(cloud_about({{{0, 0}, 0}, 0.01, sigma_rad}, 3000, random), 1, 0.02);
+  };
+  EXPECT_GT(enough(0.5), 2 * enough(0.05));
 }
 
 TEST(ParticleCloud, AWideBeliefTakesMoreParticles) {

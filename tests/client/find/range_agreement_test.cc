@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "tests/client/find/plan_rooms.h"
 
 namespace milepost {
@@ -28,6 +30,17 @@ TEST(Beams, AreTheBestKnownPointsOfEachBearingOverTheCamerasHeight) {
   EXPECT_NEAR(beams[1].range_m, 10, 1e-9);
   EXPECT_NEAR(beams[2].bearing_rad, std::atan(1), 1e-9);
   EXPECT_NEAR(beams[2].range_m, std::hypot(5, 5), 1e-9);
+}
+
+TEST(Beams, AreLevelWhereTheCameraIsNot) {
+  const Eigen::Matrix3d level_from_camera =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const std::vector<ScenePoint> points = {
+      {level_from_camera.transpose() * Eigen::Vector3d(3, -2, 12), 0.1}};
+  const std::vector<Beam> beams = beams_of(points, level_from_camera, {});
+  ASSERT_EQ(beams.size(), 1U);
+  EXPECT_NEAR(beams[0].bearing_rad, std::atan2(3, 12), 1e-9);
+  EXPECT_NEAR(beams[0].range_m, std::hypot(3, 12), 1e-9);
 }
 
 // What a camera at `pose` sees of the walls, one beam each 3 degrees.
@@ -77,6 +90,39 @@ TEST(RangeAgreement, NearerIsLikelierThanFarther) {
   EXPECT_GT(of_range(9.7), of_range(9));
   EXPECT_NEAR(of_range(4), std::log(RangeSettings{}.chance_nearer), 1e-6);
   EXPECT_NEAR(of_range(16), std::log(RangeSettings{}.chance_farther), 1e-6);
+}
+
+// A beam to a wall that stands askew: what is not known of the range, of the heading, of this wall
+// and of all walls adds up, across the wall.
+TEST(RangeAgreement, IsByAllThatIsNotKnown) {
+  const WallIndex walls({{{-30, -20}, {30, 40}, 0.8}});  // at 45 degrees, 10 m ahead
+  RangeSettings settings;
+  settings.sigma_m = 0.6;
+  settings.heading_sigma_rad = 0.05;
+  const double root2 = std::sqrt(2);
+  const double variance_m2 =
+      std::pow(0.9 / root2, 2) + std::pow(11.5 * 0.05 / root2, 2) + 0.8 * 0.8 + 0.6 * 0.6;
+  const double off_m = 1.5 / root2;
+  const double chance = settings.chance_farther;
+  const std::vector<Beam> beams = {{0, 11.5, 0.9}};
+  EXPECT_NEAR(range_agreement({}, 1, beams, walls, settings).log_likelihood,
+              std::log(chance + (1 - chance) * std::exp(-off_m * off_m / (2 * variance_m2))), 1e-9);
+}
+
+TEST(RangeAgreement, BeamsWithinThreeSigmaAreExplained) {
+  const WallIndex walls({{{-20, 10}, {20, 10}, 0}});
+  RangeSettings settings;
+  settings.sigma_m = 1;
+  const auto explained = [&](double range_m) {
+    const std::vector<Beam> beams = {{0, range_m, 0}};
+    return range_agreement({}, 1, beams, walls, settings).explained;
+  };
+  EXPECT_EQ(explained(10 + 2.9), 1);
+  EXPECT_EQ(explained(10 - 2.9), 1);
+  EXPECT_EQ(explained(10 + 3.1), 0);
+  EXPECT_EQ(explained(10 - 3.1), 0);
+  settings.reach_m = 9;  // no wall is looked at
+  EXPECT_EQ(explained(10), 0);
 }
 
 TEST(RangeAgreement, ABeamThatMeetsNothingIsUnexplained) {

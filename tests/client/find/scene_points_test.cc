@@ -7,51 +7,26 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/client/find/painted_wall.h"
+
 namespace milepost {
 namespace {
 
-const Pinhole kView{360, 360, 300, 250};
-constexpr double kWallM = 14;      // across the way, before the first camera
-constexpr double kPixelPerM = 60;  // of its picture
-
-// A wall full of spots of all sizes, 60 m wide and 40 m high.
-cv::Mat painted_wall() {
-  cv::Mat wall(static_cast<int>(40 * kPixelPerM), static_cast<int>(60 * kPixelPerM), CV_8UC1,
-               cv::Scalar(128));
-  cv::RNG random(4);
-  for (int i = 0; i < 9000; ++i) {
-    const cv::Point at(random.uniform(0, wall.cols), random.uniform(0, wall.rows));
-    const int size = random.uniform(4, 40);
-    cv::rectangle(wall, {at.x, at.y, size, random.uniform(4, 40)}, random.uniform(0, 255),
-                  cv::FILLED);
-  }
-  cv::GaussianBlur(wall, wall, {0, 0}, 1.5);
-  return wall;
-}
-
-// The wall as a camera sees it that went ahead by `ahead_m` and turned right by `turn_rad`.
-cv::Mat seen(const cv::Mat& wall, double ahead_m, double turn_rad) {
-  Eigen::Matrix3d camera_from_first =
-      Eigen::AngleAxisd(-turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  // A point x, y of the wall's picture lies at ((x, y) - middle) / kPixelPerM, kWallM ahead.
-  Eigen::Matrix3d first_from_picture;
-  first_from_picture << 1 / kPixelPerM, 0, -30, 0, 1 / kPixelPerM, -20, 0, 0, kWallM - ahead_m;
-  Eigen::Matrix3d pixel_from_camera;
-  pixel_from_camera << kView.focal_x_px, 0, kView.principal_x_px, 0, kView.focal_y_px,
-      kView.principal_y_px, 0, 0, 1;
-  const Eigen::Matrix3d h = pixel_from_camera * camera_from_first * first_from_picture;
-  cv::Mat homography(3, 3, CV_64F);
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) homography.at<double>(r, c) = h(r, c);
-  }
-  cv::Mat image;
-  cv::warpPerspective(wall, image, homography, {600, 500}, cv::INTER_AREA);
-  return image;
-}
+using testing::kView;
+using testing::kWallM;
+using testing::painted_wall;
+using testing::seen;
 
 double median(std::vector<double> values) {
   std::ranges::nth_element(values, values.begin() + static_cast<long>(values.size() / 2));
   return values[values.size() / 2];
+}
+
+std::vector<double> ahead_of(const std::vector<ScenePoint>& points) {
+  std::vector<double> ahead_m;
+  ahead_m.reserve(points.size());
+  for (const ScenePoint& point : points) ahead_m.push_back(point.camera_m.z());
+  return ahead_m;
 }
 
 TEST(ScenePoints, StandAsFarAsTheWallIs) {
@@ -74,6 +49,88 @@ TEST(ScenePoints, StandAsFarAsTheWallIs) {
   }
   EXPECT_LT(median(off_m), 0.5);
   EXPECT_LT(median(off_sigmas), 1.5);
+}
+
+TEST(ScenePoints, AWallNearbyIsSeenToo) {
+  const cv::Mat wall = painted_wall();
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, kWallM - 4, 0), {});
+  tracker.observe(seen(wall, kWallM - 3.5, 0), {0.2, 0.5, 0});
+  const auto points = tracker.observe(seen(wall, kWallM - 3, 0), {0.2, 0.5, 0});
+  ASSERT_GT(points.size(), 100U);
+  EXPECT_NEAR(median(ahead_of(points)), 3, 0.1);
+}
+
+TEST(ScenePoints, ShortStepsAddUp) {
+  const cv::Mat wall = painted_wall();
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, 0, 0), {});
+  std::size_t most = 0;
+  for (int i = 1; i <= 4; ++i) {
+    most =
+        std::max(most, tracker.observe(seen(wall, 0.25 * i, 0.05 * i), {0.1, 0.25, 0.05}).size());
+  }
+  EXPECT_GT(most, 100U);
+}
+
+// What comes into view is followed from there on.
+TEST(ScenePoints, ATurnOnTheSpotBringsNewPoints) {
+  const cv::Mat wall = painted_wall();
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, 0, -1.2), {});
+  for (int i = 11; i >= 0; --i) tracker.observe(seen(wall, 0, -0.1 * i), {0.2, 0, 0.1});
+  const auto points = tracker.observe(seen(wall, 1, 0), {0.2, 1, 0});
+  ASSERT_GT(points.size(), 100U);
+  EXPECT_NEAR(median(ahead_of(points)), kWallM - 1, 0.5);
+}
+
+// Of rows of windows one looks like the other: few are taken for their neighbours.
+TEST(ScenePoints, WhatLooksAlikeIsSeldomMistaken) {
+  cv::Mat wall(40 * 60, 60 * 60, CV_8UC1, cv::Scalar(200));
+  for (int y = 20; y < wall.rows; y += 90) {
+    for (int x = 20; x < wall.cols; x += 60) {
+      cv::rectangle(wall, {x, y, 30, 50}, 40, cv::FILLED);
+      cv::rectangle(wall, {x + 5, y + 5, 8, 20}, 120, cv::FILLED);
+    }
+  }
+  cv::GaussianBlur(wall, wall, {0, 0}, 1.5);
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, 0, 0), {});
+  const auto points = tracker.observe(seen(wall, 2, 0), {0.2, 2, 0});
+  int wrong = 0;
+  for (const ScenePoint& point : points) {
+    wrong += std::abs(point.camera_m.z() - (kWallM - 2)) > 4 ? 1 : 0;
+  }
+  ASSERT_GT(points.size(), 100U);
+  EXPECT_LT(wrong, 0.22 * static_cast<double>(points.size()));
+}
+
+// Longer than the way to the nearest points that are looked for.
+TEST(ScenePoints, LongStepsAreFollowed) {
+  const cv::Mat wall = painted_wall();
+  ScenePointTracker tracker(kView, {});
+  tracker.observe(seen(wall, 0, 0), {});
+  EXPECT_GT(tracker.observe(seen(wall, 3, 0), {0.2, 3, 0}).size(), 100U);
+}
+
+// Something before the wall that sinks by half a degree each frame.
+TEST(ScenePoints, WhatMovesIsLeftOut) {
+  const cv::Mat wall = painted_wall();
+  const cv::Mat patch = wall(cv::Rect(700, 300, 150, 150));
+  ScenePointTracker tracker(kView, {});
+  std::vector<ScenePoint> points;
+  for (int frame = 0; frame < 2; ++frame) {
+    cv::Mat image = seen(wall, frame, 0);
+    patch.copyTo(image(cv::Rect(400, 150 + 6 * frame, 150, 150)));
+    points = tracker.observe(image, {0.2, static_cast<double>(frame), 0});
+  }
+  int of_patch = 0;
+  for (const ScenePoint& point : points) {
+    const Eigen::Vector2d at = kView.pixel_of(point.camera_m);
+    of_patch += at.x() > 420 && at.x() < 530 && at.y() > 180 && at.y() < 280 ? 1 : 0;
+  }
+  EXPECT_GT(points.size(), 100U);
+  EXPECT_LT(of_patch, 8);
 }
 
 TEST(ScenePoints, StandingStillTellsNothing) {

@@ -39,6 +39,21 @@ TEST_F(SightHistoryTest, KeepsSightsApart) {
   EXPECT_EQ(history_.sights()[1].way_m, 3);
 }
 
+TEST_F(SightHistoryTest, BackwardsIsAWayToo) {
+  for (int i = 0; i < 7; ++i) history_.add(with_beams(1), {0.2, -1, 0});
+  ASSERT_EQ(history_.sights().size(), 3U);
+  EXPECT_EQ(history_.sights().back().way_m, 3);
+  EXPECT_EQ(history_.sights().back().driven_m, 7);
+}
+
+TEST_F(SightHistoryTest, KeepsOrientations) {
+  WallObservation observation = with_beams(1);
+  observation.sections = {{{-0.1, 0.1}, {0.7}}};
+  history_.add(observation, {0.2, 1, 0});
+  ASSERT_EQ(history_.sights().front().observation.sections.size(), 1U);
+  EXPECT_EQ(history_.sights().front().observation.sections[0].orientations_rad.front(), 0.7);
+}
+
 TEST_F(SightHistoryTest, KeepsNoneWithoutBeams) {
   EXPECT_FALSE(history_.add(with_beams(0), {0.2, 5, 0}));
   EXPECT_TRUE(history_.add(with_beams(1), {0.2, 1, 0}));

@@ -115,6 +115,26 @@ TEST_F(WallFilterTest, FindsTheVehicleFromNoIdea) {
   }
 }
 
+// Turned by 180 degrees the street is the same: up to its middle there are two places to be in.
+TEST_F(WallFilterTest, APlaceThatLooksLikeAnotherIsNotFound) {
+  std::vector<PlanWall> street = {{{-10, 0}, {-10, 400}, 0.2},
+                                  {{10, 0}, {10, 400}, 0.2},
+                                  {{-10, 0}, {10, 0}, 0.2},
+                                  {{-10, 400}, {10, 400}, 0.2}};
+  for (const double north_m : {40, 75, 120, 170}) {
+    street.push_back({{10, north_m}, {5, north_m}, 0.2});
+    street.push_back({{5, north_m}, {5, north_m + 8}, 0.2});
+    street.push_back({{-10, 400 - north_m}, {-5, 400 - north_m}, 0.2});
+    street.push_back({{-5, 400 - north_m}, {-5, 392 - north_m}, 0.2});
+  }
+  walls_ = WallIndex(street);
+  pose_ = {{-1, 5}, 0};
+  drive(120);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    EXPECT_EQ(run(seeded(seed), walls_).found, 0) << "seed " << seed;
+  }
+}
+
 TEST_F(WallFilterTest, KeepsAStartThatIsKnown) {
   drive_round_the_corner();
   FilterSettings settings = seeded(1);
@@ -203,6 +223,142 @@ TEST_F(WallFilterTest, StandingStillChangesNoBelief) {
   const Outcome outcome = run(seeded(1), walls_);
   EXPECT_EQ(outcome.last, FindStatus::predicted);
   EXPECT_LT(outcome.last_error_m, 1.5);
+}
+
+// ... and no particle moves or is drawn anew, so long as nothing is seen.
+TEST_F(WallFilterTest, StandingStillParticlesStay) {
+  drive(5);
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{1, 3}, 0}, 2, 0.1};
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  for (const Step& step : steps_) filter.update(step.observation, step.motion);
+  const ParticleCloud before = filter.particles();
+  for (int i = 0; i < 20; ++i) filter.update({}, {kStepS, 0, 0});
+  ASSERT_EQ(filter.particles().size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(filter.particles()[i].pose.enu_m, before[i].pose.enu_m);
+    EXPECT_EQ(filter.particles()[i].pose.heading_rad, before[i].pose.heading_rad);
+  }
+  filter.update({}, {kStepS, 0, 0.1});  // a turn on the spot is a motion
+  EXPECT_NE(filter.particles().front().pose.heading_rad, before.front().pose.heading_rad);
+}
+
+// Most of those that look to the sides go into houses, and with them all of their weight.
+TEST_F(WallFilterTest, AKnownStartThatLosesParticlesAtWallsHasEnoughAgain) {
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{0, 30}, 0}, 1, 1.5};
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  for (int i = 0; i < 20; ++i) {
+    filter.update({}, {kStepS, kStepM, 0});
+    EXPECT_GE(filter.particles().size(), settings.particles / 2);
+  }
+  for (const Particle& particle : filter.particles()) {
+    EXPECT_LT(std::abs(particle.pose.enu_m.x()), 8);  // in the street
+  }
+}
+
+TEST_F(WallFilterTest, WhereNothingIsSeenTheBeliefSpreads) {
+  const WallIndex far({{{500, 0}, {500, 100}, 0.1}});
+  const PlanBox area{{-600, -600}, {600, 600}};
+  for (const FindMethod method : {FindMethod::orientations, FindMethod::combined}) {
+    FilterSettings settings = seeded(1);
+    settings.method = method;
+    settings.start = StartBelief{{{0, 0}, 0}, 0.01, 0.001};
+    WallFilter filter(far, area, settings);
+    Found found;
+    for (int i = 0; i < 60; ++i) found = filter.update({}, {kStepS, kStepM, 0});
+    EXPECT_NEAR(found.mode.pose.enu_m.y(), 90, 4);
+    EXPECT_GT(found.mode.sigma_m, 0.2);
+    EXPECT_GT(found.mode.heading_sigma_rad, 0.01);
+  }
+}
+
+// However long the vehicle looks at the same walls, this is no news.
+TEST_F(WallFilterTest, StandingStillASightSaysNothing) {
+  drive(5);
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{1, 3}, 0}, 2, 0.1};
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  for (const Step& step : steps_) filter.update(step.observation, step.motion);
+  const ParticleCloud before = filter.particles();
+  const WallObservation sight = seen_at({{4, 20}, 0.1}, walls_, random_);
+  for (int i = 0; i < 20; ++i) filter.update(sight, {kStepS, 0, 0});
+  ASSERT_EQ(filter.particles().size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NEAR(filter.particles()[i].weight, before[i].weight, 1e-12);
+  }
+}
+
+TEST_F(WallFilterTest, ThePapersMethodEnduresWhatNoParticleExplains) {
+  FilterSettings settings = seeded(1);
+  settings.method = FindMethod::orientations;
+  const WallIndex far({{{500, 0}, {500, 100}, 0.1}});
+  WallFilter filter(far, {{-50, -50}, {50, 50}}, settings);
+  const WallObservation sight{{{{-0.1, 0.1}, {0.5}}}, {}};
+  const Found found = filter.update(sight, {kStepS, kStepM, 0});
+  EXPECT_GT(found.mode.mass, 0);
+  EXPECT_LE(found.mode.mass, 1);
+  EXPECT_EQ(filter.particles().size(), settings.particles);
+  for (const Particle& particle : filter.particles()) EXPECT_GT(particle.weight, 0);
+}
+
+// Whatever is drawn, challenged and drawn again.
+TEST_F(WallFilterTest, ParticlesAreNoMoreThanAskedForAndCarryOneBelief) {
+  drive_round_the_corner();
+  for (const bool is_start_known : {false, true}) {
+    FilterSettings settings = seeded(1);
+    settings.particles = 300;
+    if (is_start_known) settings.start = StartBelief{{{1, 3}, 0}, 4, 0.2};
+    WallFilter filter(walls_, walls_.bounds(), settings);
+    for (const Step& step : steps_) {
+      filter.update(step.observation, step.motion);
+      const ParticleCloud& cloud = filter.particles();
+      EXPECT_LE(cloud.size(), settings.particles);
+      EXPECT_GE(cloud.size(), settings.particles / 2);
+      double total = 0;
+      for (const Particle& particle : cloud) total += particle.weight;
+      EXPECT_NEAR(total, 1, 1e-9);
+      EXPECT_GE(effective_count(cloud), 0.49 * static_cast<double>(cloud.size()));
+    }
+  }
+}
+
+TEST_F(WallFilterTest, WhatIsFoundTakesFewerParticles) {
+  drive_round_the_corner();
+  FilterSettings settings = seeded(1);
+  settings.start = StartBelief{{{1, 3}, 0}, 1, 0.1};
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  Found found;
+  for (const Step& step : steps_) found = filter.update(step.observation, step.motion);
+  EXPECT_EQ(found.status, FindStatus::tracking);
+  EXPECT_LT(filter.particles().size(), settings.particles);
+}
+
+TEST_F(WallFilterTest, WhereNothingIsSeenNothingIsLeftUnexplained) {
+  drive(10);
+  for (const FindMethod method : {FindMethod::orientations, FindMethod::combined}) {
+    FilterSettings settings = seeded(1);
+    settings.method = method;
+    settings.start = StartBelief{{{1, 3}, 0}, 1, 0.1};
+    WallFilter filter(walls_, walls_.bounds(), settings);
+    Found found;
+    for (const Step& step : steps_) found = filter.update(step.observation, step.motion);
+    EXPECT_GT(found.explained, 0.1);
+    EXPECT_EQ(filter.update({}, {kStepS, kStepM, 0}).explained, found.explained);
+  }
+}
+
+// Section IV: each frame draws particles by their importance.
+TEST_F(WallFilterTest, ThePapersMethodDrawsParticlesAfterEachFrame) {
+  drive(10);
+  FilterSettings settings = seeded(1);
+  settings.method = FindMethod::orientations;
+  WallFilter filter(walls_, walls_.bounds(), settings);
+  for (const Step& step : steps_) {
+    filter.update(step.observation, step.motion);
+    EXPECT_EQ(filter.particles().size(), settings.particles);
+    EXPECT_NEAR(effective_count(filter.particles()), 2000, 1e-6);
+  }
 }
 
 TEST_F(WallFilterTest, OneParticleIsAllowed) {

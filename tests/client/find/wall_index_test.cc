@@ -84,6 +84,22 @@ TEST(WallIndex, FindsWhatAScanOfAllWallsFinds) {
   EXPECT_GT(met, 2000);
 }
 
+// Along the axes of its squares, on their borders, and beside all walls.
+TEST(WallIndex, RaysAlongTheAxesMeetTheirWalls) {
+  std::vector<PlanWall> walls;
+  testing::add_house(walls, {0, 0}, {40, 24});
+  const WallIndex index(walls);
+  EXPECT_DOUBLE_EQ(index.first_hit({8, 12}, {0, 1}, 100)->range_m, 12);
+  EXPECT_DOUBLE_EQ(index.first_hit({8, 12}, {0, -1}, 100)->range_m, 12);
+  EXPECT_DOUBLE_EQ(index.first_hit({8, 12}, {1, 0}, 100)->range_m, 32);
+  EXPECT_DOUBLE_EQ(index.first_hit({8, 12}, {-1, 0}, 100)->range_m, 8);
+  EXPECT_DOUBLE_EQ(index.first_hit({8, 40}, {0, -1}, 100)->range_m, 16);
+  EXPECT_DOUBLE_EQ(index.first_hit({60, 12}, {-1, 0}, 100)->range_m, 20);
+  EXPECT_FALSE(index.first_hit({41, -10}, {0, 1}, 100).has_value());
+  EXPECT_FALSE(index.first_hit({-10, 25}, {1, 0}, 100).has_value());
+  EXPECT_FALSE(index.first_hit({-10, 20}, {0.6, 0.8}, 100).has_value());
+}
+
 TEST(WallIndex, AStepThroughAWallCrossesIt) {
   std::vector<PlanWall> walls;
   testing::add_house(walls, {0, 0}, {10, 8});

@@ -99,6 +99,37 @@ TEST(ViewSections, UprightLinesLinesOfNoneAndLinesOnTheGroundAreLeftOut) {
   EXPECT_TRUE(view_sections(found, kView).empty());
 }
 
+// Lines of other kinds, before and between, change nothing; one that reaches over the horizon
+// counts, one behind the camera does not.
+TEST(ViewSections, EachLineIsJudgedByItself) {
+  VanishingDirections found = seen_with(0, 0);
+  add_line(found, {100, 100}, {200, 120}, std::nullopt);
+  add_line(found, {250, 300}, {350, 240}, 1);
+  add_line(found, {100, 100}, {105, 200}, 0);
+  add_line(found, {400, 90}, {450, 80}, 2);
+  const std::vector<ViewSection> sections = view_sections(found, kView);
+  ASSERT_EQ(sections.size(), 2U);
+  EXPECT_NEAR(sections[0].bearings.from_rad, bearing_of_column(250), 1e-9);
+  EXPECT_NEAR(sections[1].bearings.to_rad, bearing_of_column(450), 1e-9);
+}
+
+TEST(ViewSections, AGapPartsLinesOfOneOrientation) {
+  VanishingDirections found = seen_with(0, 0);
+  add_line(found, {100, 100}, {200, 120}, 1);
+  add_line(found, {300, 100}, {400, 120}, 1);
+  add_line(found, {200, 90}, {300, 90}, 2);
+  const std::vector<ViewSection> sections = view_sections(found, kView);
+  ASSERT_EQ(sections.size(), 3U);
+  EXPECT_THAT(sections[1].orientations_rad, ElementsAre(DoubleNear(std::numbers::pi / 3, 1e-9)));
+  EXPECT_NEAR(sections[2].bearings.from_rad, bearing_of_column(300), 1e-9);
+}
+
+TEST(ViewSections, AnUprightImageOfALineHasNoWidth) {
+  VanishingDirections found = seen_with(0, 0);
+  add_line(found, {300, 100}, {300, 200}, 1);
+  EXPECT_TRUE(view_sections(found, kView).empty());
+}
+
 // As the paper claims: rolling and tilting does no harm.
 TEST(ViewSections, TiltDoesNotTurnThem) {
   VanishingDirections found = seen_with(0.15, 0.2);

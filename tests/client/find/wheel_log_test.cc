@@ -28,6 +28,16 @@ TEST(WheelLog, ItBeginsWithTheFirstCall) {
   EXPECT_EQ(motion.distance_m, 0);
 }
 
+TEST(WheelLog, AReadingThatComesLateHoldsFromThenOn) {
+  WheelLog log;
+  log.add({1, 2, 0});
+  log.motion_until(2);
+  log.add({1.5, 4, 0});
+  const WheelMotion motion = log.motion_until(3);
+  EXPECT_DOUBLE_EQ(motion.duration_s, 1);
+  EXPECT_DOUBLE_EQ(motion.distance_m, 4);
+}
+
 TEST(WheelLog, WithoutReadingsTimePassesOnly) {
   WheelLog log;
   log.motion_until(1);

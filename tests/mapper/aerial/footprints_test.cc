@@ -54,6 +54,18 @@ TEST(Footprints, TheBuildingIsOnTheRight) {
   for (std::size_t i = 4; i < 8; ++i) EXPECT_FALSE(is_right_of((*walls)[i], 8.4005, 49.0005));
 }
 
+TEST(Footprints, TheBuildingIsOnTheRightHoweverTheRingRuns) {
+  for (const char* const ring :
+       {"[[8.4, 49], [8.409, 49.001], [8.402, 49.008], [8.4, 49]]",
+        "[[8.4, 49], [8.402, 49.008], [8.409, 49.001], [8.4, 49]]",
+        "[[8.409, 49.001], [8.4, 49], [8.402, 49.008], [8.409, 49.001]]"}) {
+    const auto walls = read(polygon(ring));
+    ASSERT_TRUE(walls.ok());
+    ASSERT_EQ(walls->size(), 3U);
+    for (const Wall& wall : *walls) EXPECT_TRUE(is_right_of(wall, 8.4035, 49.003)) << ring;
+  }
+}
+
 TEST(Footprints, CollectionsAndMultiPolygonsAreReadAndOthersPassedOver) {
   const std::string square = std::string("[") + kSquare + "]";
   const auto walls = read(R"({"type": "FeatureCollection", "features": [
@@ -74,6 +86,7 @@ TEST(Footprints, ReferencesOtherThanWgs84AreRefused) {
   };
   EXPECT_EQ(refusal(with_reference("urn:ogc:def:crs:OGC:1.3:CRS84")), "");
   EXPECT_EQ(refusal(with_reference("EPSG:4326")), "");
+  EXPECT_EQ(refusal(R"({"type": "FeatureCollection", "crs": null, "features": []})"), "");
   EXPECT_THAT(refusal(with_reference("EPSG:3857")),
               AllOf(HasSubstr("town.geojson, crs"), HasSubstr("EPSG:3857"), HasSubstr("ogr2ogr")));
 }
@@ -95,6 +108,26 @@ TEST(Footprints, WhatIsBrokenIsNamed) {
               AllOf(HasSubstr("coordinates[0][0]"), HasSubstr("in degrees")));
   EXPECT_THAT(refusal(polygon("[[8, 49], [8.2, 49], [8.2, 49.01], [8, 49]]")),
               HasSubstr("longer than 0.1 degrees"));
+  EXPECT_THAT(refusal(polygon("[[8, 49], [8.01, 49], [8.01, 49.2], [8, 49]]")),
+              HasSubstr("longer than 0.1 degrees"));
+  for (const char* const end : {"[8.01, 90.01]", "[180.01, 49]"}) {
+    EXPECT_THAT(refusal(polygon("[[8, 49], [8.01, 49], " + std::string(end) + ", [8, 49]]")),
+                AllOf(HasSubstr("coordinates[0][2]"), HasSubstr("in degrees")));
+  }
+  for (const char* const end : {"[8.01]", "7", R"([8.01, "49"])"}) {
+    EXPECT_THAT(refusal(polygon("[[8, 49], [8.01, 49], " + std::string(end) + ", [8, 49]]")),
+                AllOf(HasSubstr("coordinates[0][2]"), HasSubstr("[longitude, latitude]")));
+  }
+  EXPECT_THAT(refusal(R"({"type": 7})"), AllOf(HasSubstr("the root"), HasSubstr("\"type\"")));
+  EXPECT_THAT(refusal(R"({"type": "FeatureCollection", "features": 7})"),
+              HasSubstr("\"features\""));
+  EXPECT_THAT(refusal(geometry("Polygon", "7")), HasSubstr("\"coordinates\""));
+  EXPECT_THAT(refusal(geometry("MultiPolygon", "[7]")),
+              AllOf(HasSubstr("coordinates[0]"), HasSubstr("a list of rings")));
+  for (const char* const ring : {"7", R"({"a": 1, "b": 2, "c": 3, "d": 4})"}) {
+    EXPECT_THAT(refusal(polygon(ring)),
+                AllOf(HasSubstr("coordinates[0]"), HasSubstr("at least 4")));
+  }
   EXPECT_EQ(read_footprints("missing.geojson").error().code, ErrorCode::not_found);
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "mapper/aerial/block_plan.h"
 #include "mapper/aerial/closure.h"
@@ -27,7 +28,10 @@ TEST(BlockPlan, CoresCoverTheImageOnceAndMarginsStayInIt) {
     covered(block.core) += 1;
     EXPECT_EQ(block.seen & cv::Rect({0, 0}, image), block.seen);
     EXPECT_EQ(block.core & block.seen, block.core);
-    EXPECT_EQ(block.seen.x, std::max(0, block.core.x - 30));
+    EXPECT_EQ(block.seen.tl(),
+              cv::Point(std::max(0, block.core.x - 30), std::max(0, block.core.y - 30)));
+    EXPECT_EQ(block.seen.br(), cv::Point(std::min(1030, block.core.br().x + 30),
+                                         std::min(410, block.core.br().y + 30)));
   }
   EXPECT_EQ(cv::countNonZero(covered != 1), 0);
 }
@@ -53,11 +57,86 @@ TEST(LineGrid, FindsWhatIsNearAndNotWhatIsFar) {
   EXPECT_TRUE(grid.near(line(60, 20, 70, 20)).empty());
 }
 
+// The distance between two lines, from points of the first.
+double apart_m(const WallLine& a, const WallLine& b) {
+  double least_m = (a.begin_m - b.begin_m).norm();
+  for (int i = 0; i <= 200; ++i) {
+    const Eigen::Vector2d at_m = a.begin_m + i / 200.0 * (a.end_m - a.begin_m);
+    const double along_m = direction_of(b).dot(at_m - b.begin_m);
+    const double part = std::clamp(along_m / b.length_m(), 0.0, 1.0);
+    least_m = std::min(least_m, (at_m - b.begin_m - part * (b.end_m - b.begin_m)).norm());
+  }
+  return least_m;
+}
+
+TEST(LineGrid, MissesNoneWithinACellsWidth) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> place(-40, 40);
+  std::uniform_real_distribution<double> way(-1, 1);
+  WallLines lines;
+  lines.reserve(300);
+  for (int i = 0; i < 300; ++i) {
+    const double x = place(random);
+    const double y = place(random);
+    const double reach = i % 3 == 0 ? 60 : 1;  // long ones and short ones
+    lines.push_back(line(x, y, x + reach * way(random), y + reach * way(random)));
+  }
+  constexpr double kCellM = 1.5;
+  LineGrid grid(kCellM);
+  for (std::size_t i = 0; i < lines.size(); ++i) grid.add(i, lines[i]);
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::vector<std::size_t> near = grid.near(lines[i]);
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+      const bool is_named = std::binary_search(near.begin(), near.end(), j);
+      const double away_m = apart_m(lines[i], lines[j]);
+      EXPECT_TRUE(is_named || away_m > kCellM) << i << " and " << j << ", " << away_m;
+      far += is_named && away_m > 5 * kCellM ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(far, 0U);
+}
+
 TEST(Merging, PiecesOfOneLineBecomeOne) {
   const WallLines lines = merged({line(0, 0, 4, 0.1), line(4.5, 0.1, 9, 0), line(0, 5, 3, 5)}, {});
   ASSERT_EQ(lines.size(), 2U);
   expect_line(lines[0], line(0, 0.05, 9, 0.05), 0.1);
   expect_line(lines[1], line(0, 5, 3, 5));
+}
+
+TEST(Merging, TheLineIsThatOfLeastSquares) {
+  const WallLines beside = merged({line(100, 50, 110, 50), line(102.5, 50.3, 107.5, 50.3)}, {});
+  ASSERT_EQ(beside.size(), 1U);
+  expect_line(beside[0], line(100, 50.1, 110, 50.1));
+  const WallLines turned = merged({line(-5, 0, 5, 0), line(-2.5, -0.2, 2.5, 0.2)}, {});
+  ASSERT_EQ(turned.size(), 1U);
+  EXPECT_NEAR(direction_of(turned[0]).y(), 125.0 / 1125 * 0.08, 2e-4);  // by their cubed lengths
+  const WallLines steps = merged({line(0, 0, 4, 0), line(4.5, 0.3, 8.5, 0.3)}, {});
+  ASSERT_EQ(steps.size(), 1U);
+  const double slope = 2.25 * 0.15 / (2.25 * 2.25 + 16.0 / 12);
+  EXPECT_NEAR(direction_of(steps[0]).y() / direction_of(steps[0]).x(), slope, 2e-4);
+}
+
+TEST(Merging, TheLineReachesFromTheFirstEndToTheLast) {
+  for (const WallLine& other : {line(8, 0, 6, 0), line(6, 0, 8, 0)}) {
+    const WallLines lines = merged({line(0, 0, 5.5, 0), other}, {});
+    ASSERT_EQ(lines.size(), 1U);
+    expect_line(lines[0], line(0, 0, 8, 0));
+  }
+}
+
+// A piece that is too far from the longest is near enough to what it has gathered.
+TEST(Merging, GoesOnAsLongAsItGrows) {
+  const WallLines lines =
+      merged({line(0, 0, 10, 0), line(12, 0, 15, 0), line(10.5, 0, 11.5, 0)}, {});
+  ASSERT_EQ(lines.size(), 1U);
+  expect_line(lines[0], line(0, 0, 15, 0));
+}
+
+TEST(Merging, TheLongestComesFirst) {
+  const WallLines lines = merged({line(0, 0, 6, 0), line(0, 9, 5, 9), line(5.5, 9, 10, 9)}, {});
+  ASSERT_EQ(lines.size(), 2U);
+  expect_line(lines[0], line(0, 9, 10, 9));
 }
 
 TEST(Merging, TheLongestPartTellsTheSense) {
@@ -70,6 +149,10 @@ TEST(Merging, ParallelsApartAndCrossingLinesStay) {
   EXPECT_EQ(merged({line(0, 0, 9, 0), line(0, 0.6, 9, 0.6)}, {}).size(), 2U);
   EXPECT_EQ(merged({line(0, 0, 9, 0), line(0, 0, 9, 2)}, {}).size(), 2U);
   EXPECT_EQ(merged({line(0, 0, 4, 0), line(5.5, 0, 9, 0)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 4, 0), line(-4.5, 0, -1.5, 0)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 9, 0), line(4, -0.2, 4.1, 0.2)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 9, 0), line(1, 0.2, 9, 0.8)}, {}).size(), 2U);
+  EXPECT_EQ(merged({line(0, 0, 9, 0), line(1, 0.8, 9, 0.2)}, {}).size(), 2U);
 }
 
 TEST(Merging, DoesNotDependOnTheOrder) {
@@ -92,6 +175,14 @@ TEST(Closure, AHouseStandsAndALoneLineDoesNot) {
   for (std::size_t i = 0; i < house.size(); ++i) expect_line(left[i], house[i]);
 }
 
+TEST(Closure, EndsWithinReachAreOfOneCorner) {
+  const auto apart = [](double apart_m) {
+    return closed({line(0, 0, 10, 0), line(10 + apart_m, 0, 10 + apart_m, 8)}, {}).size();
+  };
+  EXPECT_EQ(apart(2.4), 2U);
+  EXPECT_EQ(apart(2.6), 0U);
+}
+
 TEST(Closure, GoesOnUntilAllThatIsLeftStands) {
   ClosureSettings both_ends;
   both_ends.min_ends = 2;
@@ -106,11 +197,39 @@ TEST(Corners, EndsAreLedTogether) {
   expect_line(lines[1], line(10, 0, 10, 8));
 }
 
+TEST(Corners, OfAHouseAllAreLedTogether) {
+  const WallLines house =
+      with_corners({line(1, 0, 9, 0), line(10, 1, 10, 7), line(9, 8, 1, 8), line(0, 7, 0, 1)}, {});
+  expect_line(house[0], line(0, 0, 10, 0));
+  expect_line(house[1], line(10, 0, 10, 8));
+  expect_line(house[2], line(10, 8, 0, 8));
+  expect_line(house[3], line(0, 8, 0, 0));
+}
+
+TEST(Corners, NeedNotBeSquare) {
+  const WallLines lines = with_corners({line(0, 0, 9, 0), line(10.5, 0.5, 18, 8)}, {});
+  expect_line(lines[0], line(0, 0, 10, 0));
+  expect_line(lines[1], line(10, 0, 18, 8));
+}
+
 TEST(Corners, WhatIsFarOrAlmostParallelStays) {
   const WallLines far = {line(0, 0, 7, 0), line(10, 1, 10, 8)};
   expect_line(with_corners(far, {})[0], far[0]);
-  const WallLines flat = {line(0, 0, 9, 0), line(9.5, 0.1, 19, 2)};
+  const WallLines far_beside = {line(10, 1, 10, 8), line(0, 0, 7, 0)};
+  expect_line(with_corners(far_beside, {})[0], far_beside[0]);
+  const WallLines flat = {line(0, 0, 9, 0), line(10.5, 0.1, 19, 1.8)};  // they cross at 10, 0
   expect_line(with_corners(flat, {})[0], flat[0]);
+  expect_line(with_corners(flat, {})[1], flat[1]);
+}
+
+// Led to the corner, the short line would turn round.
+TEST(Corners, NoLineTurnsRound) {
+  const WallLines lines = {line(0, 0, 9, 0), line(8, -0.5, 8, 1)};
+  expect_line(with_corners(lines, {})[1], line(8, 0, 8, 1));
+  const WallLines shorter = {line(0, 0, 9, 0), line(8, -0.5, 8, 0.1)};
+  expect_line(with_corners(shorter, {})[1], line(8, -0.5, 8, 0));
+  const WallLines beyond = {line(0, 0, 9, 0), line(8, 0.5, 8, 0.9)};
+  expect_line(with_corners(beyond, {})[1], beyond[1]);
 }
 
 TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
@@ -118,6 +237,23 @@ TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
       with_corners({line(0, 0, 9, 0), line(9.5, 0.5, 9.5, 8), line(10.5, 0.5, 10.5, 8)}, {});
   EXPECT_NEAR(lines[0].end_m.x(), 9.5, 1e-9);
   expect_line(lines[2], line(10.5, 0.5, 10.5, 8));
+  const WallLines turned =
+      with_corners({line(0, 0, 9, 0), line(10.5, 0.5, 10.5, 8), line(9.5, 0.5, 9.5, 8)}, {});
+  EXPECT_NEAR(turned[0].end_m.x(), 9.5, 1e-9);
+  expect_line(turned[1], line(10.5, 0.5, 10.5, 8));
+  // ... the other way round: two lines that end at one.
+  const WallLines ended =
+      with_corners({line(0, 0.9, 9, 0.9), line(0, 0, 9, 0), line(10, -1, 10, -9)}, {});
+  expect_line(ended[0], line(0, 0.9, 9, 0.9));
+  expect_line(ended[2], line(10, 0, 10, -9));
+}
+
+// Half of its length is enough, wherever it lies.
+TEST(Coverage, WhatIsKnownForTheGreaterPartIsLeftOut) {
+  const WallLines at_both_ends = {line(0, 0, 2, 0), line(8, 0, 10, 0)};
+  EXPECT_TRUE(not_covered({line(0, 1, 10, 1)}, at_both_ends, {}).empty());
+  const WallLines in_the_middle = {line(4.5, 0, 5.5, 0)};
+  EXPECT_EQ(not_covered({line(0, 1, 10, 1)}, in_the_middle, {}).size(), 1U);
 }
 
 TEST(Coverage, WhatIsKnownIsLeftOut) {

@@ -21,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::TempFolder;
 
-const GeoPoint kPlace{60, 10.5, 0};
+const GeoPoint kPlace{60.00123456, 10.50123456, 0};
 constexpr int kSide = 200;          // pixels of the images below
 constexpr double kMercatorM = 0.4;  // a pixel of EPSG:3857: 0.2 m on the ground at latitude 60
 
@@ -107,6 +107,10 @@ TEST(Orthoimage, ABlockIsAPartOfTheWhole) {
   EXPECT_EQ(cv::norm(part->bgr, whole.bgr(block), cv::NORM_INF), 0);
   EXPECT_LT((part->grid.ground_from_pixel({3, 5}) - whole.grid.ground_from_pixel({133, 75})).norm(),
             1e-9);
+  const Result<Picture> corner = image->read(cv::Rect(-20, -30, 50, 50));
+  ASSERT_TRUE(corner.ok());
+  EXPECT_EQ(cv::norm(corner->bgr, whole.bgr(cv::Rect(0, 0, 30, 20)), cv::NORM_INF), 0);
+  EXPECT_EQ(corner->grid.west_m, whole.grid.west_m);
 }
 
 TEST(Orthoimage, BandsAreReadByWhatTheyShow) {
@@ -118,6 +122,70 @@ TEST(Orthoimage, BandsAreReadByWhatTheyShow) {
   EXPECT_EQ(middle_of(read_all(folder / "bgr.tif", 0.2)), cv::Vec3b(50, 110, 170));
   write_image(folder / "grey.tif", {GCI_GrayIndex}, fill);
   EXPECT_EQ(middle_of(read_all(folder / "grey.tif", 0.2)), cv::Vec3b(50, 50, 50));
+}
+
+TEST(Orthoimage, BandsWithoutANameAreRedGreenAndBlue) {
+  const TempFolder folder;
+  write_image(folder / "a.tif", {GCI_GrayIndex, GCI_Undefined, GCI_Undefined},
+              [](int band, int, int) { return 50 + 60 * band; });
+  EXPECT_EQ(middle_of(read_all(folder / "a.tif", 0.2)), cv::Vec3b(170, 110, 50));
+}
+
+TEST(Orthoimage, APaletteIsColours) {
+  const TempFolder folder;
+  const auto palette = std::make_unique<GDALColorTable>();
+  const GDALColorEntry brick{190, 80, 60, 255};
+  palette->SetColorEntry(7, &brick);
+  write_image(folder / "a.tif", {GCI_PaletteIndex}, [](int, int, int) { return 7; });
+  std::unique_ptr<GDALDataset>(
+      GDALDataset::Open((folder / "a.tif").c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE))
+      ->GetRasterBand(1)
+      ->SetColorTable(palette.get());
+  EXPECT_EQ(middle_of(read_all(folder / "a.tif", 0.2)), cv::Vec3b(60, 80, 190));
+}
+
+// Coordinates of EPSG:4326 are latitude and longitude by its definition, the other way in files.
+TEST(Orthoimage, DegreesAreAReferenceToo) {
+  const TempFolder folder;
+  write_image(folder / "a.tif", kRgb, [](int, int, int) { return 90; });
+  const std::unique_ptr<GDALDataset> dataset(
+      GDALDataset::Open((folder / "a.tif").c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+  double transform[6] = {kPlace.longitude_deg - 2e-4, 4e-6, 0,
+                         kPlace.latitude_deg + 1e-4,  0,    -2e-6};
+  OGRSpatialReference reference;
+  ASSERT_EQ(reference.importFromEPSG(4326), OGRERR_NONE);
+  ASSERT_EQ(dataset->SetGeoTransform(transform), CE_None);
+  ASSERT_EQ(dataset->SetSpatialRef(&reference), CE_None);
+  dataset->FlushCache();
+  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "", 0.2);
+  ASSERT_TRUE(image.ok()) << image.error().line();
+  const GeoPoint middle{kPlace.latitude_deg - 1e-4, kPlace.longitude_deg + 2e-4, 0};
+  EXPECT_LT(geodesic_distance_m(image->frame().origin(), middle), 0.5);
+  EXPECT_NEAR(image->size().width * 0.2, 800e-6 * 111320 * std::cos(60 * kRadPerDeg), 1);
+}
+
+TEST(Orthoimage, ItsBoundsAreThoseOfItsPixels) {
+  const TempFolder folder;
+  write_image(folder / "a.tif", kRgb, [](int, int, int) { return 90; });
+  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "", 0.1);
+  ASSERT_TRUE(image.ok());
+  EXPECT_LT(geodesic_distance_m(image->frame().origin(), kPlace), 0.5);
+  const Bounds bounds = image->bounds();
+  const double half_deg = 20 / 111320.0;  // of latitude, for 20 m
+  EXPECT_NEAR(bounds.south_deg, kPlace.latitude_deg - half_deg, 0.05 * half_deg);
+  EXPECT_NEAR(bounds.north_deg, kPlace.latitude_deg + half_deg, 0.05 * half_deg);
+  EXPECT_NEAR(bounds.west_deg, kPlace.longitude_deg - 2 * half_deg, 0.1 * half_deg);
+  EXPECT_NEAR(bounds.east_deg, kPlace.longitude_deg + 2 * half_deg, 0.1 * half_deg);
+}
+
+TEST(Orthoimage, WhatLiesBetweenPixelsIsInterpolated) {
+  const TempFolder folder;
+  write_image(folder / "a.tif", kRgb, [](int, int x, int) { return x < 50 ? 4 * x : 200; });
+  const Picture picture = read_all(folder / "a.tif", 0.1);
+  for (int x = 20; x < 80; ++x) {  // 4 grey values each 0.2 m
+    const auto& here = picture.bgr.at<cv::Vec3b>(200, x);
+    EXPECT_NEAR(picture.bgr.at<cv::Vec3b>(200, x + 1)[0] - here[0], 2, 1) << x;
+  }
 }
 
 TEST(Orthoimage, TransparencyAndNoDataAreGaps) {
@@ -162,6 +230,8 @@ TEST(Orthoimage, WhatCannotBeUsedIsRefused) {
   write_image(
       folder / "nowhere.tif", kRgb, [](int, int, int) { return 90; }, GDT_Byte, false);
   EXPECT_THAT(refusal(folder / "nowhere.tif"), HasSubstr("no georeference"));
+  write_image(folder / "clear.tif", {GCI_AlphaBand}, [](int, int, int) { return 255; });
+  EXPECT_THAT(refusal(folder / "clear.tif"), HasSubstr("no band of grey or colours"));
   write_image(
       folder / "deep.tif", kRgb, [](int, int, int) { return 900; }, GDT_UInt16);
   EXPECT_THAT(refusal(folder / "deep.tif"), AllOf(HasSubstr("band 1"), HasSubstr("UInt16")));

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
+#include "mapper/aerial/block.h"
 #include "mapper/aerial/clutter.h"
 #include "mapper/aerial/edge_maps.h"
 #include "mapper/aerial/progressive_hough.h"
@@ -14,6 +17,7 @@
 #include "mapper/aerial/roofs.h"
 #include "mapper/aerial/segmentation.h"
 #include "mapper/aerial/shadows.h"
+#include "mapper/aerial/stage_pictures.h"
 #include "mapper/aerial/sun_evidence.h"
 #include "tests/mapper/aerial/drawn_yard.h"
 
@@ -99,6 +103,64 @@ TEST(EdgeMaps, LooserMapsHoldStricterOnes) {
   }
 }
 
+// A step to the right of a column, by so many grey values of blue, green and red.
+Picture step_of(const cv::Scalar& step) {
+  Picture picture = drawn({{20, 20}, {}, {}, 0, {}});
+  picture.bgr.setTo(cv::Scalar::all(60));
+  picture.bgr.colRange(100, 200).setTo(cv::Scalar::all(60) + step);
+  return picture;
+}
+
+Picture turned(const Picture& picture) {
+  Picture quarter = picture;
+  cv::transpose(picture.bgr, quarter.bgr);
+  return quarter;
+}
+
+TEST(EdgeMaps, TheStrongestChannelTellsTheGradient) {
+  const Gradient grey = gradient_of(step_of(cv::Scalar::all(100)), {});
+  double most = 0;
+  cv::minMaxLoc(grey.x, nullptr, &most);
+  EXPECT_GT(most, 100);
+  for (const cv::Scalar& step :
+       {cv::Scalar(100, 0, 30), cv::Scalar(0, 100, 30), cv::Scalar(30, 10, 100)}) {
+    const Gradient found = gradient_of(step_of(step), {});
+    EXPECT_EQ(cv::norm(found.x, grey.x, cv::NORM_INF), 0) << step;
+    EXPECT_EQ(cv::countNonZero(found.y), 0) << step;
+    const Gradient across = gradient_of(turned(step_of(step)), {});
+    EXPECT_EQ(cv::norm(across.y, grey.x.t(), cv::NORM_INF), 0) << step;
+    EXPECT_EQ(cv::countNonZero(across.x), 0) << step;
+  }
+}
+
+TEST(EdgeMaps, AnEdgeReachesThePicturesBorder) {
+  const Picture picture = step_of(cv::Scalar::all(100));
+  const cv::Mat edges = edge_maps(picture, gradient_of(picture, {}), {}).front();
+  for (const int row : {1, 198}) EXPECT_GT(cv::countNonZero(edges.row(row)), 0) << row;
+}
+
+// In grey values a metre; where an edge fades it goes on to a part of that.
+TEST(EdgeMaps, AnEdgeBeginsWhereItIsStrongAndGoesOnWhereItFades) {
+  Picture picture = step_of(cv::Scalar::all(0));
+  for (int y = 0; y < 200; ++y) {
+    picture.bgr.row(y).colRange(100, 200).setTo(cv::Scalar::all(60 + y / 2.0));
+  }
+  EdgeSettings settings;
+  const Gradient gradient = gradient_of(picture, settings);
+  settings.high_per_m = {120};
+  const auto first_row = [&] {
+    const cv::Mat edges = edge_maps(picture, gradient, settings).front().colRange(95, 105);
+    int row = 0;
+    while (row < 200 && cv::countNonZero(edges.row(row)) == 0) ++row;
+    return row;
+  };
+  const int begins = first_row();
+  // Across a step that is smoothed by 1.5 pixels the gradient is 0.27 of it.
+  EXPECT_NEAR(begins, 0.4 * 2 * 120 * kPixelM / 0.25, 8);
+  settings.low_share = 1;
+  EXPECT_NEAR(first_row(), 2 * 120 * kPixelM / 0.25, 8);
+}
+
 TEST(EdgeMaps, WhereDataEndsIsNoEdge) {
   Picture picture = drawn({{40, 30}, {}, {}, 0, {}});
   picture.covered.colRange(0, 150).setTo(0);
@@ -116,6 +178,19 @@ TEST(Shadows, TheThresholdPartsShadowFromGround) {
   EXPECT_GT(threshold, 40);
   EXPECT_LT(threshold, 100);
   EXPECT_EQ(shadow_threshold(std::array<double, 256>{}, {}), 0);
+}
+
+// The pixels of both classes count: a few dark ones are none.
+TEST(Shadows, AFewDarkPixelsAreNoShadow) {
+  std::array<double, 256> histogram{};
+  histogram[40] = 10;
+  histogram[120] = 9000;
+  histogram[200] = 900;
+  ShadowSettings settings;
+  settings.dark_share = 1;
+  const double threshold = shadow_threshold(histogram, settings);
+  EXPECT_GT(threshold, 120);
+  EXPECT_LE(threshold, 200);
 }
 
 TEST(Shadows, TheFarBorderIsTakenAndTheWallIsKept) {
@@ -136,6 +211,27 @@ TEST(Shadows, TheFarBorderIsTakenAndTheWallIsKept) {
     }
     EXPECT_GT(cv::countNonZero(borders), 300) << azimuth_deg;
   }
+}
+
+// A shadow's sides run as the light does; what is lit elsewhere is no border of a shadow.
+TEST(Shadows, OnlyTheFarSideIsAFarBorder) {
+  const Yard yard{{40, 30}, {House{{20, 15}, 12, 8, 0}}, {0, 45}, 3, {}};
+  const Picture picture = drawn(yard);
+  const cv::Mat grey = grey_of(picture);
+  const cv::Mat shadows = shadow_mask(grey, kShadowThreshold, kPixelM, {});
+  const cv::Mat borders = far_borders(grey, shadows, yard.sun, kPixelM, {});
+  const auto count_in = [&](double west_m, double south_m, double east_m, double north_m) {
+    const Eigen::Vector2d from = picture.grid.pixel_from_ground({west_m, north_m});
+    const Eigen::Vector2d to = picture.grid.pixel_from_ground({east_m, south_m});
+    const cv::Rect box(cv::Point(static_cast<int>(from.x()), static_cast<int>(from.y())),
+                       cv::Point(static_cast<int>(to.x()), static_cast<int>(to.y())));
+    return cv::countNonZero(borders(box));
+  };
+  EXPECT_GT(count_in(15, 7.5, 25, 8.5), 200);
+  EXPECT_EQ(count_in(25.5, 8.8, 26.5, 10.8), 0);
+  EXPECT_EQ(count_in(13.5, 8.8, 14.5, 10.8), 0);
+  EXPECT_EQ(count_in(0, 0, 40, 7.5), 0);
+  EXPECT_EQ(count_in(15, 8.6, 25, 10.5), 0);
 }
 
 TEST(Shadows, NarrowDarkLinesAreNone) {
@@ -160,6 +256,34 @@ TEST(Clutter, RoughAndGreenAreMasked) {
   }
 }
 
+// The grey of ground with noise where the mask says so.
+cv::Mat noise_within(const cv::Mat& mask) {
+  cv::Mat grey(mask.size(), CV_8UC1, cv::Scalar::all(128));
+  cv::Mat noise(mask.size(), CV_8UC1);
+  cv::RNG(5).fill(noise, cv::RNG::UNIFORM, 0, 256);
+  noise.copyTo(grey, mask);
+  return grey;
+}
+
+TEST(Clutter, WhatIsSmallIsNone) {
+  cv::Mat spot = cv::Mat::zeros(300, 300, CV_8UC1);
+  spot(cv::Rect(130, 130, 20, 20)).setTo(255);
+  EXPECT_EQ(cv::countNonZero(rough_mask(noise_within(spot), kPixelM, {})), 0);
+  spot(cv::Rect(100, 100, 100, 100)).setTo(255);
+  EXPECT_GT(cv::countNonZero(rough_mask(noise_within(spot), kPixelM, {})), 8000);
+  Picture picture = drawn({{20, 20}, {}, {}, 0, {}});
+  picture.bgr.setTo(cv::Scalar::all(128));
+  for (int x = 10; x < 200; x += 10) picture.bgr.at<cv::Vec3b>(x, x) = {0, 255, 0};
+  EXPECT_EQ(cv::countNonZero(green_mask(picture, {})), 0);
+}
+
+TEST(Clutter, NarrowGapsAreClosed) {
+  cv::Mat stripes = cv::Mat::zeros(300, 300, CV_8UC1);
+  for (int x = 0; x < 300; x += 20) stripes.colRange(x, std::min(x + 10, 300)).setTo(255);
+  const cv::Mat rough = rough_mask(noise_within(stripes), kPixelM, {});
+  EXPECT_EQ(cv::countNonZero(rough.colRange(20, 270) == 0), 0);
+}
+
 TEST(Clutter, GreyPicturesHaveNoGreen) {
   Picture picture = drawn(one_house());
   cv::cvtColor(grey_of(picture), picture.bgr, cv::COLOR_GRAY2BGR);
@@ -178,13 +302,17 @@ TEST(Clutter, WallsInGrassKeepTheirEdges) {
 }
 
 TEST(ProgressiveHough, FindsEveryWallTheLongestFirst) {
-  const Picture picture = drawn({{40, 30}, {kHouse}, {}, 0, {}});
-  const WallLines lines = lines_of(picture, edge_maps(picture, gradient_of(picture, {}), {}));
-  ASSERT_EQ(lines.size(), 4U);
-  for (const WallLine& wall : walls_of(kHouse)) EXPECT_TRUE(is_found(wall, lines, 0.15));
-  EXPECT_GT(lines[0].length_m(), 11);
-  EXPECT_GT(lines[1].length_m(), 11);
-  EXPECT_LT(lines[2].length_m(), 9);
+  for (const double turn_deg : {20.0, 0.0, 1.0, 45.0, 90.0, 135.0}) {
+    SCOPED_TRACE(turn_deg);
+    const House house{{20, 15}, 12, 8, turn_deg};
+    const Picture picture = drawn({{40, 30}, {house}, {}, 0, {}});
+    const WallLines lines = lines_of(picture, edge_maps(picture, gradient_of(picture, {}), {}));
+    ASSERT_EQ(lines.size(), 4U);
+    for (const WallLine& wall : walls_of(house)) EXPECT_TRUE(is_found(wall, lines, 0.15));
+    EXPECT_GT(lines[0].length_m(), 11);
+    EXPECT_GT(lines[1].length_m(), 11);
+    EXPECT_LT(lines[2].length_m(), 9);
+  }
 }
 
 TEST(ProgressiveHough, ALineOfAStrictMapIsNotFoundAgainInALooseOne) {
@@ -205,6 +333,43 @@ TEST(ProgressiveHough, BridgesAShortGapAndNoLongOne) {
   };
   EXPECT_EQ(count_long(4), 2);
   EXPECT_EQ(count_long(12), 0);
+}
+
+TEST(ProgressiveHough, ALineOfDashesNeedsEnoughOfThem) {
+  const Picture picture = drawn({{40, 30}, {House{{20, 15}, 30, 8, 0}}, {}, 0, {}});
+  const cv::Mat map = edge_maps(picture, gradient_of(picture, {}), {}).front();
+  const auto count_long = [&](int dash_px, int gap_px) {
+    cv::Mat cut = map.clone();
+    for (int x = 0; x + gap_px <= cut.cols; x += dash_px + gap_px) {
+      cut.colRange(x, x + gap_px).setTo(0);
+    }
+    const WallLines lines = lines_of(picture, {cut});
+    return std::count_if(lines.begin(), lines.end(),
+                         [](const WallLine& line) { return line.length_m() > 5; });
+  };
+  EXPECT_GE(count_long(6, 2), 2);
+  EXPECT_EQ(count_long(3, 4), 0);
+}
+
+// Narrow bars of 1 to 12 m, the longest of which are told first, as closely as rounds follow.
+TEST(ProgressiveHough, LinesComeByTheirLength) {
+  Picture picture = drawn({{40, 30}, {}, {}, 0, {}});
+  picture.bgr.setTo(cv::Scalar::all(90));
+  const int lengths_px[] = {30, 120, 10, 70, 20, 100, 50, 40, 60, 80, 11, 110};
+  int y = 10;
+  for (const int length_px : lengths_px) {
+    picture.bgr(cv::Rect(100, y, length_px, 8)).setTo(cv::Scalar::all(200));
+    y += 24;
+  }
+  const WallLines lines =
+      lines_of(picture, {edge_maps(picture, gradient_of(picture, {}), {}).front()});
+  ASSERT_GE(lines.size(), 18U);
+  double least_m = lines.front().length_m();
+  for (const WallLine& line : lines) {
+    EXPECT_GT(line.length_m(), 1.3);
+    EXPECT_LT(line.length_m(), 1.6 * least_m);
+    least_m = std::min(least_m, line.length_m());
+  }
 }
 
 TEST(ProgressiveHough, DenseEdgesAskForLongerLines) {
@@ -229,6 +394,14 @@ TEST(ProgressiveHough, TheSeedDecides) {
     EXPECT_EQ(once[i].begin_m, again[i].begin_m);
     EXPECT_EQ(once[i].end_m, again[i].end_m);
   }
+  HoughSettings other;
+  other.seed = 2;
+  const WallLines in_another_order = lines_of(picture, maps, other);
+  const bool is_same = std::equal(once.begin(), once.end(), in_another_order.begin(),
+                                  in_another_order.end(), [](const WallLine& a, const WallLine& b) {
+                                    return a.begin_m == b.begin_m && a.end_m == b.end_m;
+                                  });
+  EXPECT_FALSE(is_same);
 }
 
 TEST(PlainHough, FindsLinesOfOneMap) {
@@ -252,6 +425,42 @@ TEST(Segmentation, ColoursAndKindsPartRegions) {
   EXPECT_EQ(label(71, 71), label(10, 10));
 }
 
+TEST(Segmentation, PixelsAtACornerAreNeighbours) {
+  cv::Mat lab(60, 60, CV_32FC3, cv::Scalar(50, 0, 0));
+  lab(cv::Rect(10, 10, 20, 20)).setTo(cv::Scalar(80, 40, 0));
+  lab(cv::Rect(30, 30, 20, 20)).setTo(cv::Scalar(80, 40, 0));
+  lab(cv::Rect(0, 30, 30, 30)).setTo(cv::Scalar(20, -40, 0));
+  const cv::Mat kinds = cv::Mat::zeros(lab.size(), CV_8UC1);
+  const Segmentation found = segmented(lab, kinds, 0.2, {});
+  EXPECT_EQ(found.count, 3);
+  EXPECT_EQ(found.labels.at<int>(20, 20), found.labels.at<int>(40, 40));
+}
+
+// Rough ground is one region; a step of less than its grain parts even ground.
+TEST(Segmentation, ARegionGrowsByItsOwnContrast) {
+  cv::Mat lab(60, 120, CV_32FC3, cv::Scalar(50, 0, 0));
+  cv::Mat noise(60, 60, CV_32FC1);
+  cv::RNG(3).fill(noise, cv::RNG::UNIFORM, -6, 6);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) lab.at<cv::Vec3f>(y, x)[0] += noise.at<float>(y, x);
+  }
+  lab.colRange(90, 120).setTo(cv::Scalar(54, 0, 0));
+  const cv::Mat kinds = cv::Mat::zeros(lab.size(), CV_8UC1);
+  const Segmentation found = segmented(lab, kinds, 0.2, {});
+  EXPECT_EQ(found.labels.at<int>(30, 30), found.labels.at<int>(10, 10));
+  EXPECT_EQ(found.labels.at<int>(30, 30), found.labels.at<int>(50, 50));
+  EXPECT_NE(found.labels.at<int>(30, 80), found.labels.at<int>(30, 100));
+}
+
+// A small region would take in more than that; the large one beside it does not.
+TEST(Segmentation, BothRegionsMustAgreeToJoin) {
+  cv::Mat lab(60, 60, CV_32FC3, cv::Scalar(50, 0, 0));
+  lab(cv::Rect(20, 20, 3, 3)).setTo(cv::Scalar(54, 0, 0));
+  const cv::Mat kinds = cv::Mat::zeros(lab.size(), CV_8UC1);
+  EXPECT_EQ(segmented(lab, kinds, 0.2, {60, 0}).count, 2);
+  EXPECT_EQ(segmented(lab, kinds, 0.2, {60, 1}).count, 1);
+}
+
 TEST(Regions, ARoofIsMeasured) {
   const House house{{20, 15}, 12, 8, 0};
   const Picture picture = drawn({{40, 30}, {house}, {300, 45}, 3, {}});
@@ -264,12 +473,37 @@ TEST(Regions, ARoofIsMeasured) {
   EXPECT_NEAR(roof->area_m2, 96, 6);
   EXPECT_NEAR(roof->length_m, 12, 1);
   EXPECT_NEAR(roof->width_m, 8, 1);
-  EXPECT_NEAR(roof->hull_ratio, 1, 0.1);
+  EXPECT_LT(roof->texture, 3);  // deviations, not the lightness itself
+  EXPECT_NEAR(roof->mean_lab[0], 46, 4);
   const Eigen::Vector2d middle = map.grid.pixel_from_ground(house.middle_m);
   const auto outward = std::count_if(
       roof->outline.begin(), roof->outline.end(),
       [&](const OutlinePoint& point) { return point.outward.dot(point.at_px - middle) > 0; });
   EXPECT_GT(static_cast<double>(outward), 0.95 * static_cast<double>(roof->outline.size()));
+}
+
+TEST(Regions, ShadowsGreenGapsAndSmallOnesAreNone) {
+  Yard yard = one_house();
+  yard.trees = {{33, 24}};
+  yard.sun.azimuth_deg = 0;
+  Picture picture = drawn(yard);
+  picture.covered.colRange(0, 50).setTo(0);
+  picture.bgr(cv::Rect(200, 40, 17, 17)).setTo(cv::Scalar::all(250));  // a car
+  const RegionMap map = regions_of(picture);
+  const auto kind_at = [&](double x_m, double y_m) {
+    const Eigen::Vector2d pixel = map.grid.pixel_from_ground({x_m, y_m});
+    return map.kinds.at<std::uint8_t>(static_cast<int>(pixel.y()), static_cast<int>(pixel.x()));
+  };
+  EXPECT_EQ(kind_at(20, 15), kLit);
+  EXPECT_EQ(kind_at(21.5, 8.5), kDark);  // to the south of the house
+  EXPECT_EQ(kind_at(33, 24), kGreen);
+  EXPECT_EQ(kind_at(3, 15), kDark);
+  for (const Region& region : map.regions) {
+    EXPECT_GE(region.area_m2, RegionSettings{}.min_area_m2);
+    cv::Mat kinds;
+    map.kinds.copyTo(kinds, map.labels == region.label);
+    EXPECT_EQ(cv::countNonZero(kinds), 0);
+  }
 }
 
 TEST(Regions, ThereIsAMapAScaleAndTheCoarserHasFewerRegions) {
@@ -288,6 +522,115 @@ TEST(Regions, ARoofOfSlowlyChangingLightIsOne) {
   const RegionMap map = region_maps(flat_roof_in_grass(), kShadowThreshold, {}, settings).front();
   ASSERT_EQ(map.regions.size(), 1U);
   EXPECT_NEAR(map.regions.front().area_m2, 96, 10);
+}
+
+// The features of the region in the middle of the yard's house.
+RoofFeatures house_features(const Picture& picture, const WallLines& lines, const Sun& sun) {
+  const RegionMap map = regions_of(picture);
+  const Eigen::Vector2d middle = map.grid.pixel_from_ground(kHouse.middle_m);
+  const int label = map.labels.at<int>(static_cast<int>(middle.y()), static_cast<int>(middle.x()));
+  const auto house = std::find_if(map.regions.begin(), map.regions.end(),
+                                  [&](const Region& region) { return region.label == label; });
+  EXPECT_NE(house, map.regions.end());
+  return roof_features(map, lines, sun)[static_cast<std::size_t>(house - map.regions.begin())];
+}
+
+TEST(Roofs, AHousesShapeIsMeasured) {
+  const Yard yard = one_house();
+  const auto [area, area2, width, filled, on_lines, shade] =
+      house_features(drawn(yard), walls_of(kHouse), yard.sun).shape;
+  EXPECT_NEAR(area, std::log(96), 0.1);
+  EXPECT_DOUBLE_EQ(area2, area * area);
+  EXPECT_NEAR(width, std::log(8), 0.15);
+  EXPECT_GT(filled, 0.85);
+  EXPECT_LE(filled, 1.05);
+  EXPECT_GT(on_lines, 0.85);
+  EXPECT_LE(on_lines, 1);
+  EXPECT_GT(shade, 0.2);
+}
+
+TEST(Roofs, OnlyLinesAlongTheOutlineCount) {
+  const Picture picture = drawn(one_house());
+  WallLines across;
+  for (const WallLine& wall : walls_of(kHouse)) {
+    const Eigen::Vector2d side = right_of(direction_of(wall));
+    for (double at_m = 0.5; at_m < wall.length_m(); at_m += 0.5) {
+      const Eigen::Vector2d on_wall = wall.begin_m + at_m * direction_of(wall);
+      across.push_back({on_wall - side, on_wall + side});
+    }
+  }
+  const auto on_lines = [&](const WallLines& lines) {
+    return house_features(picture, lines, {300, 45}).shape[4];
+  };
+  EXPECT_EQ(on_lines({}), 0);
+  EXPECT_LT(on_lines(across), 0.3);
+}
+
+// It is dark on the side of the shadow; on the other side the ground is lighter than the roof. A
+// high sun's shadow is looked for near the roof.
+TEST(Roofs, ARoofIsToldByItsShadow) {
+  const Yard yard = one_house();
+  const Picture picture = drawn(yard);
+  const auto shade = [](const Picture& of, const Sun& sun) {
+    return house_features(of, {}, sun).shape[5];
+  };
+  EXPECT_GT(shade(picture, yard.sun), 0.3);
+  EXPECT_LT(shade(picture, {120, 45}), 0);
+  Yard noon = yard;
+  noon.shadow_m = 0.6;
+  noon.sun.elevation_deg = 75;
+  EXPECT_GT(shade(drawn(noon), noon.sun), shade(drawn(noon), {300, 45}));
+}
+
+TEST(Roofs, AHousesLooksAreMeasured) {
+  const auto [texture, green, contrast] = house_features(drawn(one_house()), {}, {300, 45}).looks;
+  EXPECT_LT(texture, std::log(4));
+  EXPECT_EQ(green, 0);
+  EXPECT_GT(contrast, std::log(8));
+  Picture in_grass = drawn(one_house());
+  const cv::Vec3b roof = in_grass.bgr.at<cv::Vec3b>(150, 200);
+  cv::Mat not_roof;
+  cv::inRange(in_grass.bgr, cv::Scalar(roof) - cv::Scalar::all(20),
+              cv::Scalar(roof) + cv::Scalar::all(20), not_roof);
+  in_grass.bgr.setTo(cv::Scalar(50, 120, 60), ~not_roof);
+  EXPECT_GT(house_features(in_grass, {}, {300, 45}).looks[1], 0.9);
+}
+
+// Two regions side by side, 10 m in square, with these colours; the left one is surely a roof, the
+// other one perhaps.
+double perhaps_beside_a_roof(const Eigen::Vector3d& left_lab, const Eigen::Vector3d& right_lab,
+                             double neighbour_trust) {
+  RegionMap map;
+  map.grid = {0, 10, 0.2};
+  map.labels = cv::Mat::zeros(50, 100, CV_32SC1);
+  map.labels.colRange(50, 100).setTo(1);
+  map.label_count = 2;
+  map.regions.resize(2);
+  map.regions[0].mean_lab = left_lab;
+  map.regions[1].mean_lab = right_lab;
+  map.regions[1].label = 1;
+  for (Region& region : map.regions) region.area_m2 = 100;
+  std::vector<RoofFeatures> features(2);
+  features[0].shape[0] = 4;
+  RoofSettings settings;
+  settings.shape_bias = 0;
+  settings.shape_weights = {1, 0, 0, 0, 0, 0};
+  settings.looks_trust = 0;
+  settings.neighbour_trust = neighbour_trust;
+  return roof_probabilities(map, features, settings)[1];
+}
+
+// Two sides of a roof are of one colour, whatever the light; in grey, light alone tells.
+TEST(Roofs, ARoofsNeighbourOfALikeColourIsOneToo) {
+  const Eigen::Vector3d red(50, 40, 30);
+  const Eigen::Vector3d grey(50, 0, 0);
+  EXPECT_NEAR(perhaps_beside_a_roof(red, red, 0), 0.5, 1e-9);
+  EXPECT_GT(perhaps_beside_a_roof(red, red, 2), 0.95);
+  EXPECT_GT(perhaps_beside_a_roof(red, {75, 40, 30}, 2), 0.95);
+  EXPECT_LT(perhaps_beside_a_roof(red, {50, 10, 60}, 2), 0.55);
+  EXPECT_LT(perhaps_beside_a_roof(red, grey, 2), 0.55);
+  EXPECT_GT(perhaps_beside_a_roof(grey, {53, 0, 0}, 2), 0.95);
+  EXPECT_LT(perhaps_beside_a_roof(grey, {80, 0, 0}, 2), 0.55);
 }
 
 TEST(Roofs, ARoofThatOneScaleIsSureOfCounts) {
@@ -358,8 +701,51 @@ TEST(Roofs, AHouseIsOneAndARoadIsNone) {
   }
 }
 
+// The lines of a picture before the stage of roofs.
+WallLines lines_before_roofs(const Picture& picture, const Sun& sun, std::set<Stage> without = {}) {
+  ExtractionSettings settings;
+  settings.without = std::move(without);
+  settings.without.insert(Stage::roofs);
+  return block_walls(picture, {sun, kShadowThreshold}, settings, StagePictures("", ""));
+}
+
+TEST(Block, FarBordersOfShadowsAreLeftOut) {
+  const Yard yard{{40, 30}, {House{{20, 15}, 12, 8, 0}}, {0, 45}, 3, {}};
+  const Picture picture = drawn(yard);
+  const WallLine border{{14, 8}, {26, 8}};
+  EXPECT_FALSE(is_found(border, lines_before_roofs(picture, yard.sun), 0.3));
+  EXPECT_TRUE(is_found(border, lines_before_roofs(picture, yard.sun, {Stage::shadows}), 0.3));
+  for (const WallLine& wall : walls_of(yard.houses.front())) {
+    EXPECT_TRUE(is_found(wall, lines_before_roofs(picture, yard.sun), 0.3));
+  }
+}
+
+// Within trees there are no lines; on their border there may be some.
+TEST(Block, TreesAreLeftOutWhetherGreenOrRough) {
+  const Yard yard{{30, 20}, {}, {0, 45}, 0, {{8, 10}, {20, 10}}};
+  Picture grey = drawn(yard);
+  cv::cvtColor(grey_of(grey), grey.bgr, cv::COLOR_GRAY2BGR);
+  Picture green = drawn({{30, 20}, {}, {}, 0, {}});  // a meadow with paths
+  green.bgr.setTo(cv::Scalar(50, 120, 60));
+  for (int y = 40; y < 160; y += 20) {
+    green.bgr(cv::Rect(50, y, 200, 8)).setTo(cv::Scalar(40, 90, 50));
+  }
+  for (const Picture& picture : {green, grey}) {
+    const std::size_t without = lines_before_roofs(picture, yard.sun, {Stage::vegetation}).size();
+    EXPECT_GE(without, 4U);
+    EXPECT_EQ(lines_before_roofs(picture, yard.sun).size(), 0U);
+  }
+}
+
+TEST(Block, WallsInGrassStay) {
+  const WallLines lines = lines_before_roofs(flat_roof_in_grass(), {0, 45});
+  for (const WallLine& wall : walls_of(House{{12, 10}, 12, 8, 0})) {
+    EXPECT_TRUE(is_found(wall, lines, 0.3));
+  }
+}
+
 TEST(SunEvidence, ShadowsTellTheAzimuth) {
-  for (const double azimuth_deg : {10.0, 100.0, 190.0, 315.0}) {
+  for (const double azimuth_deg : {1.0, 10.0, 100.0, 190.0, 315.0, 359.0}) {
     Yard yard{{80, 60}, {}, {azimuth_deg, 45}, 3, {}};
     for (const double x_m : {15.0, 40.0, 65.0}) {
       yard.houses.push_back({{x_m, 15}, 12, 8, x_m});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "schema/base/file.h"
@@ -86,6 +87,23 @@ TEST(WallLayer, TheSameWallsGiveTheSameBytes) {
   ASSERT_TRUE(write_wall_layer(folder / "a.map", kWalls, kParameters).ok());
   ASSERT_TRUE(write_wall_layer(folder / "b.map", {kWalls[1], kWalls[0]}, kParameters).ok());
   EXPECT_EQ(*read_text_file(folder / "a.map"), *read_text_file(folder / "b.map"));
+}
+
+TEST(WallLayer, ACellHoldsSoManyWallsAndNoMore) {
+  const TempFolder folder;
+  std::vector<Wall> walls;
+  walls.reserve(65537);
+  for (int i = 0; i < 65537; ++i) {
+    const double north_deg = 49.0001 + 6e-8 * i;
+    walls.push_back({{north_deg, 8.4001}, {north_deg, 8.4002}, 0.4});
+  }
+  const auto refused = write_wall_layer(folder / "town.map", walls, kParameters);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().line().find("65537 walls, more than 65536"), std::string::npos)
+      << refused.error().line();
+  EXPECT_FALSE(std::filesystem::exists(folder / "town.map"));
+  walls.pop_back();
+  EXPECT_TRUE(write_wall_layer(folder / "town.map", walls, kParameters).ok());
 }
 
 TEST(WallLayer, WhatIsNoMapStaysAsItIs) {

@@ -1,0 +1,20 @@
+// Pictures of a wall across the way, for the tests of what a moving camera sees.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "schema/geo/camera_pose.h"
+
+namespace milepost::testing {
+
+inline constexpr Pinhole kView{360, 360, 300, 250};
+inline constexpr double kWallM = 14;  // across the way, before the first camera
+
+// A wall full of upright rectangles of all sizes, 60 m wide and 40 m high.
+cv::Mat painted_wall();
+
+// The wall as a camera sees it that went ahead by `ahead_m`, turned right by `turn_rad` and then
+// looks up by `pitch_rad`.
+cv::Mat seen(const cv::Mat& wall, double ahead_m, double turn_rad, double pitch_rad = 0);
+
+}  // namespace milepost::testing
