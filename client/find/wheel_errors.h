@@ -6,7 +6,7 @@
 
 namespace milepost {
 
-inline constexpr MotionNoise kWheelNoise{0.1, 0.03, 1 * kRadPerDeg, 0.0005};
+inline constexpr MotionNoise kWheelNoise{0.1, 0.03, 1 * kRadPerDeg, 0.0015};
 inline constexpr double kWheelScaleSigma = 0.02;  // before anything is seen
 
 }  // namespace milepost
