@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "client/find/pose_proposals.h"
 #include "client/find/wheel_errors.h"
@@ -40,9 +41,8 @@ ParticleCloud resampled_elsewhere(const ParticleCloud& cloud, const PlanPose& pl
 
 }  // namespace
 
-Contest::Contest(const WallIndex& walls, const PlanBox& area, double view_reach_m,
-                 std::size_t count)
-    : walls_(walls), area_(area), count_(count) {
+Contest::Contest(const WallIndex& walls, PlanBox area, double view_reach_m, std::size_t count)
+    : walls_(walls), area_(std::move(area)), count_(count) {
   evidence_.ranges = kBroadRanges;
   evidence_.view_reach_m = view_reach_m;
 }

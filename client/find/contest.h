@@ -17,7 +17,7 @@ namespace milepost {
 class Contest {
  public:
   // The walls must live as long as the contest. `count` challengers are drawn at a time.
-  Contest(const WallIndex& walls, const PlanBox& area, double view_reach_m, std::size_t count);
+  Contest(const WallIndex& walls, PlanBox area, double view_reach_m, std::size_t count);
 
   // The rivals go where the wheels go.
   void move(const WheelMotion& motion, Random& random);
