@@ -110,7 +110,7 @@ TEST_F(ContestTest, AWrongPlaceLosesTheBelief) {
 
 TEST_F(ContestTest, ARivalMayLookTheSameWay) {
   drive(76, forty_metres_back);
-  EXPECT_LT(contest_->lead(), -4);
+  EXPECT_LT(contest_->lead(), -7);
 }
 
 TEST_F(ContestTest, TheBeliefStaysWhole) {
