@@ -35,7 +35,7 @@ ParticleCloud resampled_elsewhere(const ParticleCloud& cloud, const PlanPose& pl
     return off_m <= kElsewhereM && std::abs(turn_rad) <= kElsewhereRad;
   });
   if (others.empty()) return {};
-  weigh_cloud(others, std::vector<double>(others.size(), 0));
+  normalize(others);
   return resampled(others, count, random);
 }
 

@@ -44,9 +44,8 @@ PlanBox area_of(const FinderSettings& settings, const WallIndex& walls, const Lo
     if (settings.start) {
       const GeoPoint& start = settings.start->position;
       const Eigen::Vector2d start_m = plan_from_geo(frame, start.latitude_deg, start.longitude_deg);
-      const double reach_m = 3 * settings.start->sigma_m;
-      box.min_m = box.min_m.cwiseMin(start_m - Eigen::Vector2d::Constant(reach_m));
-      box.max_m = box.max_m.cwiseMax(start_m + Eigen::Vector2d::Constant(reach_m));
+      const PlanBox about_start = widened({start_m, start_m}, 3 * settings.start->sigma_m);
+      box = {box.min_m.cwiseMin(about_start.min_m), box.max_m.cwiseMax(about_start.max_m)};
     }
     return widened(box, settings.area_margin_m);
   }

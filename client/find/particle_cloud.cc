@@ -71,11 +71,15 @@ std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const Mo
     ++crossed;
   }
   if (others.empty()) return crossed;
-  double total = 0;
-  for (const Particle& particle : others) total += particle.weight;
-  for (Particle& particle : others) particle.weight /= total;
+  normalize(others);
   cloud = std::move(others);
   return crossed;
+}
+
+void normalize(ParticleCloud& cloud) {
+  double total = 0;
+  for (const Particle& particle : cloud) total += particle.weight;
+  for (Particle& particle : cloud) particle.weight /= total;
 }
 
 double weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods) {

@@ -58,6 +58,9 @@ std::size_t move_cloud(ParticleCloud& cloud, const WheelMotion& motion, const Mo
 // likelihood: of the weighted mean, where the weights added up to 1 before.
 double weigh_cloud(ParticleCloud& cloud, const std::vector<double>& log_likelihoods);
 
+// Makes the weights add up to 1. REQUIRES: their sum is above 0.
+void normalize(ParticleCloud& cloud);
+
 // Draws the wheels' scale of each particle about 1.
 void draw_wheel_scales(ParticleCloud& cloud, double sigma, Random& random);
 

@@ -95,6 +95,19 @@ TEST(Finder, LooksInTheAreaThatIsGiven) {
   EXPECT_NEAR(box.max_m.y(), 10, 1);
 }
 
+// The paper's method draws those anew that leave the area: they would be anywhere.
+TEST(Finder, AKnownStartFarFromTheWallsIsInTheArea) {
+  FinderSettings settings = starting_at(-150, 20, 1);
+  settings.method = FindMethod::orientations;
+  Finder finder(kWalls, kView, settings);
+  finder.find(blank(), 0);
+  finder.observe({0, 4, 0});
+  finder.find(blank(), 1);
+  const PlanBox box = box_around(finder.particles());
+  EXPECT_GT(box.min_m.x(), -155);
+  EXPECT_LT(box.max_m.x(), -135);
+}
+
 TEST(Finder, ItsSeedDecides) {
   FinderSettings settings;
   const Eigen::Vector2d first = Finder(kWalls, kView, settings).particles().front().pose.enu_m;

@@ -90,6 +90,16 @@ class WallFilterTest : public ::testing::Test {
     return outcome;
   }
 
+  // About a known start.
+  WallFilter after_a_short_drive() {
+    drive(5);
+    FilterSettings settings = seeded(1);
+    settings.start = StartBelief{{{1, 3}, 0}, 2, 0.1};
+    WallFilter filter(walls_, walls_.bounds(), settings);
+    for (const Step& step : steps_) filter.update(step.observation, step.motion);
+    return filter;
+  }
+
   static FilterSettings seeded(std::uint64_t seed) {
     FilterSettings settings;
     settings.seed = seed;
@@ -227,11 +237,7 @@ TEST_F(WallFilterTest, StandingStillChangesNoBelief) {
 
 // ... and no particle moves or is drawn anew, so long as nothing is seen.
 TEST_F(WallFilterTest, StandingStillParticlesStay) {
-  drive(5);
-  FilterSettings settings = seeded(1);
-  settings.start = StartBelief{{{1, 3}, 0}, 2, 0.1};
-  WallFilter filter(walls_, walls_.bounds(), settings);
-  for (const Step& step : steps_) filter.update(step.observation, step.motion);
+  WallFilter filter = after_a_short_drive();
   const ParticleCloud before = filter.particles();
   for (int i = 0; i < 20; ++i) filter.update({}, {kStepS, 0, 0});
   ASSERT_EQ(filter.particles().size(), before.size());
@@ -275,11 +281,7 @@ TEST_F(WallFilterTest, WhereNothingIsSeenTheBeliefSpreads) {
 
 // However long the vehicle looks at the same walls, this is no news.
 TEST_F(WallFilterTest, StandingStillASightSaysNothing) {
-  drive(5);
-  FilterSettings settings = seeded(1);
-  settings.start = StartBelief{{{1, 3}, 0}, 2, 0.1};
-  WallFilter filter(walls_, walls_.bounds(), settings);
-  for (const Step& step : steps_) filter.update(step.observation, step.motion);
+  WallFilter filter = after_a_short_drive();
   const ParticleCloud before = filter.particles();
   const WallObservation sight = seen_at({{4, 20}, 0.1}, walls_, random_);
   for (int i = 0; i < 20; ++i) filter.update(sight, {kStepS, 0, 0});
