@@ -49,9 +49,7 @@ sigset_t blocked(std::initializer_list<int> numbers) {
 void wait_for_stop(const sigset_t& signals) {
   int signal = 0;
   for (sigwait(&signals, &signal); signal == SIGHUP; sigwait(&signals, &signal)) {
-    spdlog::warn(
-        "SIGHUP: the maps are not read again while the server runs; restart the server to serve "
-        "new ones");
+    spdlog::warn("SIGHUP: the maps are not read again; restart the server to serve new ones");
   }
   spdlog::info("stopping on {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
 }

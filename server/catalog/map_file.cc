@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <cerrno>
 #include <cstdint>
@@ -24,8 +25,10 @@ namespace {
 constexpr std::string_view kSqliteMagic("SQLite format 3\0", 16);
 constexpr std::size_t kSqliteHeaderBytes = 100;
 constexpr std::size_t kPageBytesAt = 16;  // two bytes; 1 stands for 65536
-constexpr std::size_t kPagesAt = 28;      // four bytes
+constexpr std::size_t kChangesAt = 24;    // four bytes, as all below
+constexpr std::size_t kPagesAt = 28;
 constexpr std::size_t kApplicationIdAt = 68;
+constexpr std::size_t kPagesValidForAt = 92;  // the number of changes that kPagesAt belongs to
 
 Error no_map(const fs::path& file, const std::string& what) {
   return {ErrorCode::invalid_input, file.string(), what, "move it elsewhere"};
@@ -95,13 +98,23 @@ Result<FileHead> read_head(const fs::path& file) {
   return head;
 }
 
+// The length that the header promises, or 0 if it promises none: an old SQLite wrote it, or it is
+// damaged, and SQLite says so better.
+std::uint64_t promised_bytes(const FileHead& head) {
+  const std::uint64_t stored = head.number(kPageBytesAt, 2);
+  const std::uint64_t page_bytes = stored == 1 ? 65536 : stored;
+  const bool pages_hold = head.number(kChangesAt, 4) == head.number(kPagesValidForAt, 4);
+  if (!std::has_single_bit(page_bytes) || page_bytes < 512 || !pages_hold) return 0;
+  return page_bytes * head.number(kPagesAt, 4);
+}
+
 // Whether all pages are there that the header promises.
 Status check_length(const fs::path& file, const FileHead& head) {
-  const std::uint64_t stored = head.number(kPageBytesAt, 2);
-  const std::uint64_t promised = (stored == 1 ? 65536 : stored) * head.number(kPagesAt, 4);
-  if (head.read == head.bytes.size() && head.file_bytes >= promised) return ok_status();
+  const bool has_header = head.read == head.bytes.size();
+  const std::uint64_t promised = has_header ? promised_bytes(head) : 0;
+  if (has_header && head.file_bytes >= promised) return ok_status();
   std::string what = "is cut off: it has " + std::to_string(head.file_bytes) + " bytes";
-  if (head.read == head.bytes.size()) what += " of " + std::to_string(promised);
+  if (has_header) what += " of " + std::to_string(promised);
   return half_copied(file, what);
 }
 

@@ -166,6 +166,16 @@ TEST_F(LeftOutTest, DamagedMap) {
   expect_left_out("town.map", "malformed");
 }
 
+// A length that is damaged is none.
+TEST_F(LeftOutTest, DamagedHeader) {
+  write_town(town_);
+  std::fstream file(town_, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(16);  // the length of a page
+  file << "xx";
+  file.close();
+  expect_left_out("town.map", "file is not a database");
+}
+
 TEST_F(LeftOutTest, MapOfAnotherFormatVersion) {
   write_town(town_);
   change_town("PRAGMA user_version = 1");

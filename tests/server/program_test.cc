@@ -127,6 +127,7 @@ TEST(ProgramTest, HelpTeaches) {
   EXPECT_THAT(program.output(),
               AllOf(HasSubstr("--maps"), HasSubstr("--listen"), HasSubstr("--threads"),
                     HasSubstr("--config"), HasSubstr("Examples:"), HasSubstr("Exit codes:"),
+                    HasSubstr("SIGHUP"), HasSubstr("town.map.bak"), HasSubstr("1 left out"),
                     HasSubstr("(1 to 256, default "), Not(HasSubstr("UINT"))));
   EXPECT_EQ(program.wait(), 0);
 }
