@@ -84,9 +84,8 @@ class Opening {
     for (const auto& [name, same_name] : candidates_) {
       const Candidate* chosen = chosen_of(same_name);
       for (const Candidate& candidate : same_name) {
-        const Status opened = !candidate.content     ? candidate.content
-                              : &candidate == chosen ? open_map(name, candidate.file)
-                                                     : refused(name, candidate, same_name, chosen);
+        const Status opened = &candidate == chosen ? open_map(name, candidate)
+                                                   : refused(name, candidate, same_name, chosen);
         if (!opened) left_out.push_back(opened.error());
       }
     }
@@ -96,16 +95,19 @@ class Opening {
   std::vector<Error> left_out;
 
  private:
-  Status open_map(const std::string& name, const fs::path& file) {
-    Result<std::shared_ptr<const ServedMap>> map = ServedMap::open(name, file, readers_);
+  Status open_map(const std::string& name, const Candidate& candidate) {
+    if (!candidate.content) return candidate.content;
+    Result<std::shared_ptr<const ServedMap>> map = ServedMap::open(name, candidate.file, readers_);
     if (!map) return map.error();
     maps[name] = std::move(*map);
     return ok_status();
   }
 
-  // The file gives way to the chosen one, or to another of its name.
-  static Error refused(const std::string& name, const Candidate& candidate,
-                       const std::vector<Candidate>& same_name, const Candidate* chosen) {
+  // The file gives way to the chosen one; where none is, it and the others of its name are in
+  // doubt.
+  static Status refused(const std::string& name, const Candidate& candidate,
+                        const std::vector<Candidate>& same_name, const Candidate* chosen) {
+    if (!candidate.content) return candidate.content;
     if (chosen == nullptr) chosen = &same_name[&candidate == &same_name.front() ? 1 : 0];
     return same_name_error(name, candidate.file, chosen->file);
   }
