@@ -51,7 +51,7 @@ Status check_kind(const fs::path& file) {
     case fs::file_type::regular:
       return ok_status();
     case fs::file_type::directory:
-      return no_map(file, "is a directory; maps in it are not served");
+      return no_map(file, "is a directory, whose files are not served");
     case fs::file_type::fifo:
       return no_map(file, "is a FIFO, not a map file");
     case fs::file_type::socket:
