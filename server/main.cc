@@ -1,11 +1,15 @@
 // milepost-server: serves a directory of maps until it is told to stop.
+#include <fcntl.h>
 #include <pthread.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <initializer_list>
 #include <iostream>
+#include <string>
 
+#include "server/log/log.h"
 #include "server/options.h"
 #include "server/server.h"
 
@@ -13,34 +17,59 @@ namespace {
 
 using namespace milepost;
 
-void log_to_standard_error() { spdlog::set_default_logger(spdlog::stderr_logger_mt("server")); }
+// How long the end of the log may take when the server stops.
+constexpr std::chrono::milliseconds kLastLines{500};
 
-// The signals that ask for a stop. They are blocked in every thread and taken by wait_for_stop.
-sigset_t block_stop_signals() {
+// What was started without an input or output gets an empty one, lest the next file or socket that
+// is opened gets its number.
+void open_standard_descriptors() {
+  while (true) {
+    const int descriptor = ::open("/dev/null", O_RDWR);
+    if (descriptor <= STDERR_FILENO && descriptor >= 0) continue;
+    if (descriptor >= 0) ::close(descriptor);
+    return;
+  }
+}
+
+// A log whose reader goes away, or whose file may not grow any more, does not end the server.
+void ignore_failures_of_the_log() {
+  signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
+}
+
+// Blocks signals in this thread and those that it starts; wait_for_stop takes them.
+sigset_t blocked(std::initializer_list<int> numbers) {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
+  for (const int number : numbers) sigaddset(&signals, number);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
 }
 
 void wait_for_stop(const sigset_t& signals) {
   int signal = 0;
-  sigwait(&signals, &signal);
+  for (sigwait(&signals, &signal); signal == SIGHUP; sigwait(&signals, &signal)) {
+    spdlog::warn("SIGHUP: the maps are not read again; restart the server to serve new ones");
+  }
   spdlog::info("stopping on {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
+}
+
+// "(2 maps, 1 left out)"
+std::string counts(const server::Catalog& catalog) {
+  const std::string maps = std::to_string(catalog.maps().size()) + " maps";
+  if (catalog.left_out() == 0) return '(' + maps + ')';
+  return '(' + maps + ", " + std::to_string(catalog.left_out()) + " left out)";
 }
 
 Status serve(const server::Options& options) {
   const auto catalog = server::Catalog::open(
       options.maps, options.threads, [](const std::string& line) { spdlog::warn("{}", line); });
   if (!catalog) return catalog.error();
-  const sigset_t signals = block_stop_signals();
+  const sigset_t signals = blocked({SIGHUP, SIGINT, SIGTERM});
   const auto running =
       server::Server::start(*catalog, {options.address, options.port, options.threads, {}});
   if (!running) return running.error();
-  std::cout << "listening on " << (*running)->address() << " (" << (*catalog)->maps().size()
-            << " maps)" << std::endl;
+  std::cout << "listening on " << (*running)->address() << ' ' << counts(**catalog) << std::endl;
   wait_for_stop(signals);
   (*running)->stop();
   return ok_status();
@@ -49,12 +78,15 @@ Status serve(const server::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_descriptors();
   const auto options = server::parse_options(argc, argv);
   if (const int* exit_code = std::get_if<int>(&options)) return *exit_code;
-  signal(SIGPIPE, SIG_IGN);  // a log reader that goes away does not end the server
-  log_to_standard_error();
+  ignore_failures_of_the_log();
+  blocked({SIGHUP});  // from the first moment; a stop may end the opening of the maps
+  const auto log = std::make_shared<server::LogWriter>(STDERR_FILENO);
+  server::log_to(log);
   const Status served = serve(std::get<server::Options>(options));
-  if (served) return 0;
-  std::cerr << "milepost-server: " << served.error().line() << '\n';
-  return 1;
+  if (!served) log->write("milepost-server: " + served.error().line() + '\n');
+  log->close(kLastLines);
+  return served ? 0 : 1;
 }

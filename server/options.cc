@@ -17,9 +17,12 @@ constexpr int kWrongCall = 2;
 constexpr unsigned kMaxThreads = 256;
 
 constexpr const char* kDescription =
-    "Serves the maps of a directory over HTTP: clients in vehicles ask for the tiles of a segment "
-    "by along range.\nEvery file of the directory that is a milepost map is served under its "
-    "name without the extension.";
+    R"(Serves the maps of a directory over HTTP: clients in vehicles ask for the tiles of a segment by along range.
+Every file of the directory that is a milepost map is served under its name without the extension.
+Left out, each with a line in the log that says why, are files that cannot be served (empty, cut off,
+damaged, unreadable, a name that cannot stand in a URL) and copies and parts of maps, by their names
+(town.map.bak, town.map~, town.old, town.part). Of files that give the same name the one that ends in
+.map is served, or none. The directory is read once: restart the server to serve new maps.)";
 
 constexpr const char* kExamples = R"~(Examples:
   milepost-server --maps /srv/milepost --listen 0.0.0.0:8080
@@ -27,7 +30,8 @@ constexpr const char* kExamples = R"~(Examples:
   milepost-server --maps maps --listen '[::1]:8080' --threads 4
       serves on loopback over IPv6, with four threads
   milepost-server --maps maps --listen 127.0.0.1:0
-      lets the system choose a port and prints it: "listening on 127.0.0.1:40123 (2 maps)"
+      lets the system choose a port and prints it: "listening on 127.0.0.1:40123 (2 maps)", or
+      "(2 maps, 1 left out)"
   milepost-server --config server.toml
       takes the same options as keys:
           maps = "/srv/milepost"
@@ -37,7 +41,10 @@ constexpr const char* kExamples = R"~(Examples:
       lists the maps; /openapi.yaml describes every address
 
 It serves until SIGINT (Ctrl-C) or SIGTERM, then lets answers under way end and exits with 0.
-Exit codes: 0 stopped on request, 1 the maps or the address cannot be used, 2 wrong call.)~";
+SIGHUP changes nothing: the maps are not read again. The log goes to standard error; lines that
+cannot be written, as nobody reads them or the disk is full, are dropped, and the log says how many.
+Exit codes: 0 stopped on request, 1 the address or none of the maps can be used, 2 wrong call.
+A directory without any map is served as an empty catalog.)~";
 
 // Splits "ADDR:PORT" or "[ADDR]:PORT" at the last colon. False if the form is another.
 bool split_listen(std::string_view text, std::string& address, std::uint16_t& port) {

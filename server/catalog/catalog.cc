@@ -1,48 +1,26 @@
 #include "server/catalog/catalog.h"
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "schema/base/ids.h"
-#include "schema/store/map_content.h"
+#include "server/catalog/map_file.h"
 
 namespace milepost::server {
 namespace fs = std::filesystem;
 namespace {
 
-// A map is a SQLite file that carries the application id of map.sql, big-endian at byte 68
-// (https://www.sqlite.org/fileformat.html, section 1.3).
-constexpr std::string_view kSqliteMagic("SQLite format 3\0", 16);
-constexpr std::size_t kApplicationIdAt = 68;
-
-bool is_map_file(const fs::path& file) {
-  std::array<char, kApplicationIdAt + 4> head{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(head.data(), head.size());
-  if (!stream || !std::string_view(head.data(), head.size()).starts_with(kSqliteMagic))
-    return false;
-  std::int64_t application_id = 0;
-  for (std::size_t i = kApplicationIdAt; i < head.size(); ++i) {
-    application_id = application_id * 256 + static_cast<unsigned char>(head[i]);
-  }
-  return application_id == kMapApplicationId;
-}
-
-// The regular files of a directory that are not hidden, by name.
+// What lies in a directory and is not hidden, by name.
 Result<std::vector<fs::path>> files_of(const fs::path& directory) {
   std::error_code error;
   std::vector<fs::path> files;
   fs::directory_iterator entry(directory, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    std::error_code ignored;  // a file that vanishes meanwhile is not there
     const bool hidden = entry->path().filename().string().starts_with('.');
-    if (!hidden && entry->is_regular_file(ignored)) files.push_back(entry->path());
+    if (!hidden) files.push_back(entry->path());
   }
   if (error == std::errc::no_such_file_or_directory) {
     return Error{ErrorCode::not_found, directory.string(), "there is no such directory",
@@ -63,42 +41,104 @@ Document catalog_document(const std::map<std::string, std::shared_ptr<const Serv
   return document_of(json.dump());
 }
 
+// A file that holds a map, or is meant to.
+struct Candidate {
+  fs::path file;
+  Status content;  // check_map_file
+};
+
+// The one of several files of one name that is served, or null if that is in doubt.
+const Candidate* chosen_of(const std::vector<Candidate>& same_name) {
+  if (same_name.size() == 1) return &same_name.front();
+  const auto found = std::ranges::find_if(
+      same_name, [](const Candidate& candidate) { return candidate.file.extension() == ".map"; });
+  return found == same_name.end() ? nullptr : &*found;
+}
+
+Error same_name_error(const std::string& name, const fs::path& file, const fs::path& other) {
+  return {ErrorCode::invalid_input, file.string(),
+          "has the same map name '" + name + "' as " + other.string(),
+          "rename or remove one of the two"};
+}
+
+// Finds the maps among files and opens them.
+class Opening {
+ public:
+  Opening(unsigned readers, const Catalog::Warn& warn) : readers_(readers), warn_(warn) {}
+
+  void look_at(const fs::path& file) {
+    const Status content = check_map_file(file);
+    if (!content && content.error().code == ErrorCode::invalid_input && !is_named_as_map(file)) {
+      warn_(content.error().line());
+      return;
+    }
+    const Result<std::string> name = map_name_of(file);
+    if (name) {
+      candidates_[*name].push_back({file, content});
+    } else {
+      left_out.push_back(content ? name.error() : content.error());
+    }
+  }
+
+  void open_maps() {
+    for (const auto& [name, same_name] : candidates_) {
+      const Candidate* chosen = chosen_of(same_name);
+      for (const Candidate& candidate : same_name) {
+        const Status opened = &candidate == chosen ? open_map(name, candidate)
+                                                   : refused(name, candidate, same_name, chosen);
+        if (!opened) left_out.push_back(opened.error());
+      }
+    }
+  }
+
+  std::map<std::string, std::shared_ptr<const ServedMap>> maps;
+  std::vector<Error> left_out;
+
+ private:
+  Status open_map(const std::string& name, const Candidate& candidate) {
+    if (!candidate.content) return candidate.content;
+    Result<std::shared_ptr<const ServedMap>> map = ServedMap::open(name, candidate.file, readers_);
+    if (!map) return map.error();
+    maps[name] = std::move(*map);
+    return ok_status();
+  }
+
+  // The file gives way to the chosen one; where none is, it and the others of its name are in
+  // doubt.
+  static Status refused(const std::string& name, const Candidate& candidate,
+                        const std::vector<Candidate>& same_name, const Candidate* chosen) {
+    if (!candidate.content) return candidate.content;
+    if (chosen == nullptr) chosen = &same_name[&candidate == &same_name.front() ? 1 : 0];
+    return same_name_error(name, candidate.file, chosen->file);
+  }
+
+  unsigned readers_;
+  const Catalog::Warn& warn_;
+  std::map<std::string, std::vector<Candidate>> candidates_;
+};
+
 }  // namespace
 
 Result<std::shared_ptr<const Catalog>> Catalog::open(const fs::path& directory, unsigned readers,
                                                      const Warn& warn) {
   const Result<std::vector<fs::path>> files = files_of(directory);
   if (!files) return files.error();
-  const std::shared_ptr<Catalog> catalog(new Catalog);
-  for (const fs::path& file : *files) {
-    if (!is_map_file(file)) {
-      warn(file.string() + ": is no milepost map and is skipped; move it elsewhere");
-      continue;
-    }
-    const Status added = catalog->add(file, readers);
-    if (!added) return added.error();
+  Opening opening(readers, warn);
+  for (const fs::path& file : *files) opening.look_at(file);
+  opening.open_maps();
+  const std::vector<Error>& left_out = opening.left_out;
+  if (opening.maps.empty() && left_out.size() == 1) return left_out.front();
+  for (const Error& error : left_out) warn(error.line());
+  if (opening.maps.empty() && !left_out.empty()) {
+    return Error{ErrorCode::corrupt, directory.string(),
+                 "none of its " + std::to_string(left_out.size()) + " maps can be served",
+                 "the lines before this one say why"};
   }
+  const std::shared_ptr<Catalog> catalog(new Catalog);
+  catalog->maps_ = std::move(opening.maps);
+  catalog->left_out_ = left_out.size();
   catalog->document_ = catalog_document(catalog->maps_);
   return std::shared_ptr<const Catalog>(catalog);
-}
-
-Status Catalog::add(const fs::path& file, unsigned readers) {
-  const std::string name = file.stem().string();
-  if (!is_segment_id(name)) {
-    return Error{ErrorCode::invalid_input, file.string(),
-                 "the map's name '" + name + "' cannot stand in a URL",
-                 "rename the file with 1 to 64 of A-Z a-z 0-9 . _ -"};
-  }
-  if (const auto other = files_.find(name); other != files_.end()) {
-    return Error{ErrorCode::invalid_input, file.string(),
-                 "has the same map name '" + name + "' as " + other->second.string(),
-                 "rename or remove one of the two"};
-  }
-  Result<std::shared_ptr<const ServedMap>> map = ServedMap::open(name, file, readers);
-  if (!map) return map.error();
-  maps_[name] = std::move(*map);
-  files_[name] = file;
-  return ok_status();
 }
 
 }  // namespace milepost::server

@@ -1,6 +1,7 @@
 // The maps of a directory, as requests see them.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -16,23 +17,23 @@ class Catalog {
  public:
   using Warn = std::function<void(const std::string& line)>;
 
-  // Opens every map among the directory's files that are regular and not hidden; a map's name is
-  // the stem of its file. A file that is no map is skipped, with a line for `warn`.
-  // Errors: not_found or io (directory), invalid_input (two maps of one name, a name that cannot
-  // stand in a URL), and those of ServedMap::open: a map that cannot be served is never left out
-  // silently.
+  // Opens every map among the directory's files that are not hidden; a map's name is the stem of
+  // its file (map_file.h). What cannot be served is left out with a line for `warn` that says why,
+  // and the rest is served. Of files that give the same name the one that ends in ".map" is served,
+  // or none. Errors: not_found or io (directory); when there are maps and none can be served, why.
   static Result<std::shared_ptr<const Catalog>> open(const std::filesystem::path& directory,
                                                      unsigned readers, const Warn& warn);
 
   const std::map<std::string, std::shared_ptr<const ServedMap>>& maps() const { return maps_; }
   const Document& document() const { return document_; }  // of GET /v1/maps
+  // Files that hold a map, or are named ".map", and are not served.
+  std::size_t left_out() const { return left_out_; }
 
  private:
   Catalog() = default;
-  Status add(const std::filesystem::path& file, unsigned readers);
 
   std::map<std::string, std::shared_ptr<const ServedMap>> maps_;
-  std::map<std::string, std::filesystem::path> files_;
+  std::size_t left_out_ = 0;
   Document document_;
 };
 

@@ -9,49 +9,19 @@
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
-#include <boost/beast/http/error.hpp>
-#include <boost/beast/http/parser.hpp>
-#include <boost/beast/http/read.hpp>
-#include <boost/beast/http/string_body.hpp>
 
 #include "server/handle.h"
 #include "server/http/head.h"
 
 namespace milepost::server {
-namespace http = boost::beast::http;
 namespace {
-
-using Parser = http::request_parser<http::string_body>;
 
 constexpr std::size_t kReadBytes = 4096;
 constexpr std::size_t kWriteBytes = 65536;       // a client has `stall` to take so much
 constexpr std::size_t kLingerBytes = 1'048'576;  // of what a refused client goes on sending
 
-std::string all_values(const Parser& parser, http::field name) {
-  std::string joined;
-  const auto [begin, end] = parser.get().equal_range(name);
-  for (auto field = begin; field != end; ++field) {
-    joined.append(joined.empty() ? "" : ", ").append(std::string(field->value()));
-  }
-  return joined;
-}
-
-// The answer to bytes that are no request of ours.
-Response refusal_of(const error_code& error, const Parser& parser) {
-  if (error == http::error::body_limit) {
-    return problem(413, "the request's body is too long; no address of this server takes one");
-  }
-  if (error == http::error::header_limit) {
-    return parser.get().target().empty()
-               ? problem(414, "the request's first line is too long; shorten the address")
-               : problem(431, "the request's header is too long; send fewer or shorter fields");
-  }
-  return problem(400, "this is no HTTP/1.1 request (" + error.message() + "); mend the client");
-}
-
-bool is_http_error(const error_code& error) {
-  return error && error.category() == make_error_code(http::error::bad_method).category() &&
-         error != http::error::end_of_stream && error != http::error::partial_message;
+std::string_view text_of(const net::const_buffer& buffer) {
+  return {static_cast<const char*>(buffer.data()), buffer.size()};
 }
 
 }  // namespace
@@ -111,49 +81,39 @@ net::awaitable<void> Session::run() {
 // Between requests a client may be silent for longer than within one.
 net::awaitable<bool> Session::await_first_byte() {
   if (buffer_.size() > 0) co_return true;  // the next request came together with the last one
-  error_code error;
   waiting_ = true;
   stream_.expires_after(limits_.idle);
-  const auto space = buffer_.prepare(kReadBytes);
-  const std::size_t bytes = co_await stream_.async_read_some(space, awaited(error));
+  const bool more = co_await read_more();
   waiting_ = false;
-  buffer_.commit(bytes);
-  co_return !error;
+  co_return more;
 }
 
 // Null if the connection ended or was too slow: there is nobody to answer.
-net::awaitable<std::unique_ptr<Session::Incoming>> Session::read_request() {
-  Parser parser;
-  parser.header_limit(static_cast<std::uint32_t>(limits_.header_bytes));
-  parser.body_limit(limits_.body_bytes);
-  error_code error;
+net::awaitable<std::unique_ptr<Incoming>> Session::read_request() {
+  RequestParser parser(limits_);
   stream_.expires_after(limits_.request);  // for all of it, however it drips in
-  co_await http::async_read(stream_, buffer_, parser, awaited(error));
-  auto incoming = std::make_unique<Incoming>();
-  if (is_http_error(error)) {
-    incoming->refusal = std::make_unique<Response>(refusal_of(error, parser));
-    co_return incoming;
+  while (true) {
+    buffer_.consume(parser.take(text_of(buffer_.cdata())));
+    if (parser.done()) co_return std::make_unique<Incoming>(parser.incoming());
+    const bool more = co_await read_more();
+    if (!more) co_return nullptr;
   }
-  if (error) co_return nullptr;
-  const auto& message = parser.get();
-  incoming->request.method = std::string(message.method_string());
-  incoming->request.target = std::string(message.target());
-  incoming->request.if_none_match = all_values(parser, http::field::if_none_match);
-  incoming->http_version = message.version();
-  incoming->keep_alive = message.keep_alive();
-  if (message.version() == 11 && message.count(http::field::host) != 1) {
-    incoming->keep_alive = false;
-    incoming->refusal = std::make_unique<Response>(
-        problem(400, "the request needs one Host field; mend the client"));
-  }
-  co_return incoming;
+}
+
+// Some further bytes from the client. False if there are none.
+net::awaitable<bool> Session::read_more() {
+  error_code error;
+  const auto space = buffer_.prepare(kReadBytes);
+  const std::size_t bytes = co_await stream_.async_read_some(space, awaited(error));
+  buffer_.commit(bytes);
+  co_return !error;
 }
 
 Response Session::response_to(const Incoming& incoming) const {
   if (service_ == Service::turn_away) {
     return problem(503, "too many connections are open; try again later");
   }
-  if (incoming.refusal != nullptr) return *incoming.refusal;
+  if (incoming.refusal) return *incoming.refusal;
   try {
     return handle(incoming.request, *catalog_);
   } catch (const std::exception& failure) {

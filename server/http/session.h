@@ -11,8 +11,8 @@
 #include "server/catalog/catalog.h"
 #include "server/http/asio.h"
 #include "server/http/body_reader.h"
+#include "server/http/request_parser.h"
 #include "server/http/sessions.h"
-#include "server/request.h"
 #include "server/response.h"
 #include "server/settings.h"
 
@@ -38,17 +38,10 @@ class Session : public std::enable_shared_from_this<Session> {
   void abort();
 
  private:
-  // A request as it was read, or the answer to one that cannot be read further.
-  struct Incoming {
-    Request request;
-    unsigned http_version = 11;
-    bool keep_alive = false;
-    std::unique_ptr<Response> refusal;
-  };
-
   net::awaitable<void> run();
   net::awaitable<bool> await_first_byte();
   net::awaitable<std::unique_ptr<Incoming>> read_request();
+  net::awaitable<bool> read_more();
   net::awaitable<bool> answer(const Incoming& incoming);
   net::awaitable<bool> send(std::string_view head, ByteView first, BodyReader& rest);
   net::awaitable<bool> write(std::string_view head, ByteView body);

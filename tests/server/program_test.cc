@@ -2,15 +2,18 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <spawn.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/server/connection.h"
@@ -28,8 +31,10 @@ using testing::StartsWith;
 // A running milepost-server, with its two outputs in pipes.
 class Program {
  public:
-  explicit Program(std::vector<std::string> arguments) {
+  // `through`: a line of the shell that becomes the program, "$0" with "$@".
+  explicit Program(std::vector<std::string> arguments, const std::string& through = "") {
     arguments.insert(arguments.begin(), MILEPOST_SERVER);
+    if (!through.empty()) arguments.insert(arguments.begin(), {"/bin/sh", "-c", through});
     std::vector<char*> argv;
     argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -68,15 +73,32 @@ class Program {
   }
   std::string output() { return rest_of(out_); }
   std::string error() { return rest_of(err_); }
+  // The first `count` lines of standard error, or fewer if it ends.
+  std::string error_lines(int count) {
+    std::string text;
+    for (char c = 0; count > 0 && ::read(err_, &c, 1) == 1; count -= c == '\n' ? 1 : 0) text += c;
+    return text;
+  }
+  // How many bytes wait in standard error.
+  int error_bytes() const {
+    int bytes = 0;
+    ioctl(err_, FIONREAD, &bytes);
+    return bytes;
+  }
   void signal(int number) const { kill(process_, number); }
   pid_t process() const { return process_; }
 
-  // The exit code, or -1 if a signal ended the program.
+  // The exit code, or -1 if a signal ended the program, or -2 if it does not end.
   int wait() {
     int status = 0;
-    waitpid(process_, &status, 0);
-    process_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    for (int i = 0; i < 3000; ++i) {
+      if (waitpid(process_, &status, WNOHANG) == process_) {
+        process_ = 0;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return -2;
   }
 
  private:
@@ -105,6 +127,7 @@ TEST(ProgramTest, HelpTeaches) {
   EXPECT_THAT(program.output(),
               AllOf(HasSubstr("--maps"), HasSubstr("--listen"), HasSubstr("--threads"),
                     HasSubstr("--config"), HasSubstr("Examples:"), HasSubstr("Exit codes:"),
+                    HasSubstr("SIGHUP"), HasSubstr("town.map.bak"), HasSubstr("1 left out"),
                     HasSubstr("(1 to 256, default "), Not(HasSubstr("UINT"))));
   EXPECT_EQ(program.wait(), 0);
 }
@@ -229,6 +252,131 @@ TEST_F(ProgramWithMapTest, MemoryDoesNotGrowWithTheRange) {
   EXPECT_TRUE(fetch(port, tiles + "?layer=tracklets&from_m=0&to_m=inf").whole);
   EXPECT_GT(after_one_kb, 0);
   EXPECT_LT(peak_kb(program.process()), after_one_kb + 3 * kTileKb / 2);  // all four would be + 3
+}
+
+// Asks for as many paths that are not there as fill a log of `bytes`.
+void fill_log(std::uint16_t port, std::size_t bytes) {
+  const std::string path = '/' + std::string(3000, 'x');
+  Connection connection(port);
+  for (std::size_t logged = 0; logged < bytes; logged += path.size()) {
+    connection.send_get(path);
+    ASSERT_EQ(connection.receive().status, 404);
+  }
+}
+
+TEST_F(ProgramWithMapTest, LogThatNobodyReadsKeepsNothingFromAnAnswerNorFromTheStop) {
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--threads", "2"});
+  const std::uint16_t port = port_in(program.line());
+  ASSERT_NO_FATAL_FAILURE(fill_log(port, 4'000'000));
+  EXPECT_GT(program.error_bytes(), 0);
+  EXPECT_EQ(fetch(port, "/healthz").body, "ok\n");
+  const auto told = std::chrono::steady_clock::now();
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - told, std::chrono::seconds(5));
+}
+
+TEST_F(ProgramWithMapTest, LogSaysHowManyLinesAreMissing) {
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--threads", "1"});
+  const std::uint16_t port = port_in(program.line());
+  constexpr int kRequests = 1000;
+  ASSERT_NO_FATAL_FAILURE(fill_log(port, std::size_t{kRequests} * 3001));
+  int written = 0;
+  int missing = 0;
+  while (written + missing < kRequests) {
+    const std::string line = program.error_lines(1);
+    ASSERT_NE(line, "") << written << " and " << missing;
+    if (line.find("lines of the log are missing before this one") != std::string::npos) {
+      missing += std::stoi(line.substr(std::string("milepost-server: ").size()));
+    } else {
+      ++written;
+    }
+  }
+  EXPECT_EQ(written + missing, kRequests);
+  EXPECT_GT(missing, 0);
+  EXPECT_EQ(fetch(port, "/healthz").body, "ok\n");
+  EXPECT_THAT(program.error_lines(1), HasSubstr("\"GET /healthz\" 200"));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+}
+
+TEST_F(ProgramWithMapTest, LogIsWholeAfterAStop) {
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--threads", "1"});
+  ASSERT_NO_FATAL_FAILURE(fill_log(port_in(program.line()), 30'000));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  const std::string error = program.error();
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 11);  // ten answers and the stop
+  EXPECT_NE(error.find("stopping on SIGTERM\n"), std::string::npos);
+}
+
+// What standard error may be; the server serves and stops all the same.
+TEST_F(ProgramWithMapTest, LogThatCannotBeWrittenDoesNoHarm) {
+  const std::string file = (other_.path() / "log").string();
+  for (const std::string& through : {
+           std::string("exec \"$0\" \"$@\" 2>&-"),
+           std::string("exec \"$0\" \"$@\" 2>/dev/full"),
+           "ulimit -f 1; exec \"$0\" \"$@\" 2>" + file,
+           std::string("exec \"$0\" \"$@\" 2</dev/null"),
+       }) {
+    Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"}, through);
+    const std::uint16_t port = port_in(program.line());
+    ASSERT_NO_FATAL_FAILURE(fill_log(port, 30'000)) << through;
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.wait(), 0) << through;
+  }
+}
+
+// A socket that got the number of standard error would get the log, too. (SQLite heeds that by
+// itself, so there is no map.)
+TEST_F(ProgramWithMapTest, ClosedDescriptorsAreNotTakenByAnythingElse) {
+  Program program({"--maps", other_.path(), "--listen", "127.0.0.1:0"},
+                  "exec \"$0\" \"$@\" 0<&- 2>&-");
+  EXPECT_EQ(fetch(port_in(program.line()), "/healthz").body, "ok\n");
+  const std::filesystem::path open = "/proc/" + std::to_string(program.process()) + "/fd";
+  EXPECT_EQ(std::filesystem::read_symlink(open / "0"), "/dev/null");
+  EXPECT_EQ(std::filesystem::read_symlink(open / "2"), "/dev/null");
+}
+
+TEST_F(ProgramWithMapTest, SighupIsNotTheEnd) {
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"});
+  const std::uint16_t port = port_in(program.line());
+  program.signal(SIGHUP);
+  EXPECT_THAT(program.error_lines(1), AllOf(HasSubstr("SIGHUP"), HasSubstr("restart the server")));
+  EXPECT_EQ(fetch(port, "/healthz").body, "ok\n");
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+}
+
+TEST_F(ProgramWithMapTest, RestIsServedAndTheFirstLineCounts) {
+  std::ofstream(maps_.path() / "half.map") << "";
+  std::ofstream(maps_.path() / "README") << "text";
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"});
+  const std::string line = program.line();
+  EXPECT_THAT(line, HasSubstr(" (1 maps, 1 left out)"));
+  EXPECT_EQ(fetch(port_in(line), "/v1/maps/town").status, 200);
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_THAT(program.error(), HasSubstr("half.map: is empty; "));
+}
+
+TEST_F(ProgramWithMapTest, NothingButBadMapsExitsWith1AndEachReason) {
+  std::filesystem::resize_file(maps_.path() / "town.map", 4096);
+  std::ofstream(maps_.path() / "half.map") << "";
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"});
+  EXPECT_EQ(program.output(), "");
+  const std::string error = program.error();
+  EXPECT_THAT(error, AllOf(HasSubstr("half.map: is empty"), HasSubstr("town.map: is cut off"),
+                           HasSubstr("\nmilepost-server: " + maps_.path().string() +
+                                     ": none of its 2 maps can be served; ")));
+  EXPECT_EQ(program.wait(), 1);
+}
+
+TEST_F(ProgramWithMapTest, DirectoryWithoutMapsIsServed) {
+  Program program({"--maps", other_.path(), "--listen", "127.0.0.1:0"});
+  EXPECT_THAT(program.line(), HasSubstr(" (0 maps)"));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
 }
 
 TEST_F(ProgramWithMapTest, OtherFilesAreNamedInTheLog) {

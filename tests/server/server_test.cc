@@ -223,6 +223,171 @@ TEST_F(ServerTest, WhatIsNoRequestIsRefused) {
   EXPECT_TRUE(serves());
 }
 
+// Where a body ends must be beyond doubt: what one side takes for the body, the other may take for
+// the next request. Each of these carries such a request, which must never be answered.
+TEST_F(ServerTest, FramingInDoubtIsRefusedAndTheRestIsNoRequest) {
+  start();
+  const std::string smuggled = "GET /v1/maps HTTP/1.1\r\nHost: test\r\n\r\n";
+  const std::string chunks = "5\r\nhello\r\n0\r\n\r\n";
+  const std::string unknown = "Transfer-Encoding other than 'chunked'";
+  const std::string both = "both Content-Length and Transfer-Encoding";
+  const std::string length = "Content-Length is not one whole number";
+  const std::string twice = "Transfer-Encoding is given more than once";
+  const std::string folded = "goes on in a second line";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"Transfer-Encoding: xchunked\r\n", unknown},
+      {"Transfer-Encoding: gzip\r\n", unknown},
+      {"Transfer-Encoding: identity\r\n", unknown},
+      {"Transfer-Encoding: gzip, chunked\r\n", unknown},
+      {"Transfer-Encoding: chunked, gzip\r\n", unknown},
+      {"Transfer-Encoding: chunked, chunked\r\n", unknown},
+      {"Transfer-Encoding: chunked,\r\n", unknown},
+      {"Transfer-Encoding: ,chunked\r\n", unknown},
+      {"Transfer-Encoding: chunked;q=1\r\n", unknown},
+      {"Transfer-Encoding: \"chunked\"\r\n", unknown},
+      {"Transfer-Encoding: chun ked\r\n", unknown},
+      {"Transfer-Encoding:\r\n", unknown},
+      {"Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n", twice},
+      {"Transfer-Encoding: chunked\r\nTransfer-Encoding: identity\r\n", twice},
+      {"Transfer-Encoding: identity\r\nTransfer-Encoding: chunked\r\n", twice},
+      {"Transfer-Encoding: x\r\nTransfer-Encoding: y\r\n", twice},
+      {"Transfer-Encoding: chunked\r\nContent-Length: 5\r\n", both},
+      {"Content-Length: 5\r\nTransfer-Encoding: chunked\r\n", both},
+      {"Content-Length: 5\r\ntransfer-encoding: xchunked\r\n", both},
+      {"TRANSFER-ENCODING: xchunked\r\ncontent-length: 5\r\n", both},
+      {"Transfer-Encoding: gzip\r\nContent-Length: 100000\r\n", both},
+      {"Content-Length: 0\r\nContent-Length: 5\r\n", length},
+      {"Content-Length: 5\r\nContent-Length: 5\r\n", length},
+      {"Content-Length: 5, 5\r\n", length},
+      {"Content-Length: 5, 6\r\n", length},
+      {"Content-Length: +5\r\n", length},
+      {"Content-Length: -5\r\n", length},
+      {"Content-Length: 0x5\r\n", length},
+      {"Content-Length: 5 5\r\n", length},
+      {"Content-Length: 5.0\r\n", length},
+      {"Content-Length: 5,\r\n", length},
+      {"Content-Length: \"5\"\r\n", length},
+      {"Content-Length:\r\n", length},
+      {"Content-Length: 18446744073709551617\r\n", length},
+      {"Transfer-Encoding:\r\n chunked\r\n", folded},
+      {"X: a\r\n\tTransfer-Encoding: chunked\r\n", folded},
+      {"X: a\r\n \r\n", folded},
+  };
+  for (const auto& [fields, detail] : cases) {
+    Connection connection(port_);
+    connection.send("POST /healthz HTTP/1.1\r\nHost: test\r\n" + fields + "\r\n" + chunks +
+                    smuggled);
+    const Reply reply = connection.receive();
+    EXPECT_EQ(reply.status, 400) << fields;
+    EXPECT_TRUE(reply.whole) << fields;
+    EXPECT_EQ(reply.header("content-type"), "application/problem+json") << fields;
+    EXPECT_EQ(reply.header("connection"), "close") << fields;
+    EXPECT_THAT(reply.body, HasSubstr(detail)) << fields;
+    EXPECT_TRUE(connection.closed()) << fields;
+  }
+  EXPECT_TRUE(serves());
+}
+
+TEST_F(ServerTest, HttpOneNullHasNoChunks) {
+  start();
+  Connection connection(port_);
+  connection.send(
+      "POST /healthz HTTP/1.0\r\nConnection: keep-alive\r\nTransfer-Encoding: chunked\r\n\r\n"
+      "0\r\n\r\nGET /v1/maps HTTP/1.0\r\n\r\n");
+  const Reply reply = connection.receive();
+  EXPECT_EQ(reply.status, 400);
+  EXPECT_THAT(reply.body, HasSubstr("HTTP/1.0 knows no Transfer-Encoding"));
+  EXPECT_TRUE(connection.closed());
+}
+
+TEST_F(ServerTest, ChunkedBodyIsPassedOver) {
+  start();
+  for (const char* coding : {"chunked", "Chunked", "CHUNKED", "\t chunked \t"}) {
+    Connection connection(port_);
+    connection.send(std::string("POST /healthz HTTP/1.1\r\nHost: test\r\nTransfer-Encoding:") +
+                    coding + "\r\n\r\n5;a=b\r\nhello\r\n0\r\nIf-None-Match: *\r\n\r\n");
+    EXPECT_EQ(connection.receive().status, 405) << coding;
+    connection.send_get("/healthz");
+    EXPECT_EQ(connection.receive().body, "ok\n") << coding;
+  }
+}
+
+// A field after the body is none of the request's.
+TEST_F(ServerTest, TrailersChangeNothing) {
+  start();
+  Connection connection(port_);
+  connection.send(
+      "GET /v1/maps HTTP/1.1\r\nHost: test\r\nTransfer-Encoding: chunked\r\n\r\n"
+      "0\r\nIf-None-Match: *\r\nHost: other\r\n\r\n");
+  EXPECT_EQ(connection.receive().status, 200);
+  connection.send_get("/healthz");
+  EXPECT_EQ(connection.receive().body, "ok\n");
+}
+
+TEST_F(ServerTest, ChunksThatAreNoneAreRefused) {
+  start();
+  for (const std::string& body :
+       {std::string("x\r\nhello\r\n0\r\n\r\n"), std::string("-5\r\nhello\r\n0\r\n\r\n"),
+        std::string("0x5\r\nhello\r\n0\r\n\r\n"), std::string("5\nhello\r\n0\r\n\r\n"),
+        std::string("5\r\nhelloX\r\n0\r\n\r\n"), std::string("5;\n\r\nhello\r\n0\r\n\r\n"),
+        std::string("10000000000000005\r\nhello\r\n0\r\n\r\n"),
+        std::string("0\r\nContent-Length: 5\r\n\r\n"), std::string("0\r\nbad field\r\n\r\n")}) {
+    Connection connection(port_);
+    connection.send("POST /healthz HTTP/1.1\r\nHost: test\r\nTransfer-Encoding: chunked\r\n\r\n" +
+                    body);
+    EXPECT_EQ(connection.receive().status, 400) << body;
+    EXPECT_TRUE(connection.closed()) << body;
+  }
+}
+
+TEST_F(ServerTest, HeadersThatOthersMayReadOtherwiseAreRefused) {
+  start();
+  const std::string zero(1, '\0');
+  const std::vector<std::string> heads = {
+      "GET /healthz HTTP/1.1\r\nHost : test\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\nHost: test\r\nTransfer-Encoding : chunked\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\n Host: test\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\nHost: test\r\n: x\r\n\r\n",
+      "GET /healthz HTTP/1.1\nHost: test\n\n\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\nHost: test\nX: y\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\nHost: te\rst\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\nHost: test\r\rX: y\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\nHost: te" + zero + "st\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\nHost: test\r\nX" + zero + ": y\r\n\r\n",
+      "GET /heal" + zero + "thz HTTP/1.1\r\nHost: test\r\n\r\n",
+      "GET  /healthz HTTP/1.1\r\nHost: test\r\n\r\n",
+      "GET /healthz  HTTP/1.1\r\nHost: test\r\n\r\n",
+      "GET /healthz HTTP/1.1 \r\nHost: test\r\n\r\n",
+      "GET\t/healthz HTTP/1.1\r\nHost: test\r\n\r\n",
+      "GET /healthz\r\nHost: test\r\n\r\n",
+      "GET /healthz http/1.1\r\nHost: test\r\n\r\n",
+      "GET /healthz HTTP/1.0\r\nHost: a\r\nHost: b\r\n\r\n",
+  };
+  for (const std::string& head : heads) {
+    Connection connection(port_);
+    connection.send(head + "GET /v1/maps HTTP/1.1\r\nHost: test\r\n\r\n");
+    const Reply reply = connection.receive();
+    EXPECT_EQ(reply.status, 400) << head;
+    EXPECT_EQ(reply.header("content-type"), "application/problem+json") << head;
+    EXPECT_TRUE(connection.closed()) << head;
+  }
+  EXPECT_TRUE(serves());
+}
+
+// However the header comes in, its length is that of all of it.
+TEST_F(ServerTest, HeaderInPiecesHasTheSameLimit) {
+  start();
+  Connection connection(port_);
+  connection.send("GET /healthz HTTP/1.1\r\nHost: test\r\n");
+  for (int i = 0; i < 19; ++i) {
+    connection.send("X: " + std::string(1000, 'x') + "\r\n");
+    std::this_thread::sleep_for(5ms);
+  }
+  connection.send("\r\n");
+  EXPECT_EQ(connection.receive().status, 431);
+  EXPECT_TRUE(connection.closed());
+}
+
 TEST_F(ServerTest, RefusedClientMayGoOnSending) {
   ConnectionLimits limits;
   limits.linger = 1h;

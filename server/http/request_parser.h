@@ -1,0 +1,58 @@
+// From the bytes of a connection to a request. No socket is needed.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/string_body.hpp>
+
+#include "server/http/asio.h"
+#include "server/request.h"
+#include "server/response.h"
+#include "server/settings.h"
+
+namespace milepost::server {
+
+// A request, or the answer to bytes that are none.
+struct Incoming {
+  Request request;
+  unsigned http_version = 11;       // 10 or 11
+  bool keep_alive = false;          // the client may send another request
+  std::optional<Response> refusal;  // after it nothing that follows can be understood
+};
+
+// Reads one request by the framing of HTTP/1.1 (RFC 9112), and refuses what two readers could
+// understand differently: whoever is in front of the server must find the same end of the request.
+// The body is passed over. Not safe to use from several threads at once.
+class RequestParser {
+ public:
+  // Uses the limits `header_bytes` and `body_bytes`.
+  explicit RequestParser(const ConnectionLimits& limits);
+
+  // Takes bytes from the front and returns how many. Unless done(), the next call begins with those
+  // that were not taken, and has more of them. REQUIRES: not done().
+  std::size_t take(std::string_view bytes);
+  // The request is whole, or refused.
+  bool done() const { return incoming_.refusal.has_value() || parser_.is_done(); }
+  // REQUIRES: done().
+  const Incoming& incoming() const { return incoming_; }
+
+ private:
+  using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
+
+  void take_head(std::string_view part, const error_code& error);
+  void end_head();
+  void refuse_long_head(std::string_view rest);
+  void refuse(unsigned status, const std::string& detail);
+
+  Parser parser_;
+  std::size_t header_limit_;  // bytes
+  std::size_t head_bytes_ = 0;
+  bool folded_ = false;  // a field went on in a second line
+  Incoming incoming_;
+};
+
+}  // namespace milepost::server
