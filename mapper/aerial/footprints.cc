@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 constexpr std::size_t kMinRingPoints = 4;  // the last is the first again
 constexpr std::size_t kMaxNameBytes = 60;  // of what a message quotes
 
-// The outlines of a large city; it takes about 3 GB of memory.
+// The outlines of a large city; it takes about 5 GB of memory.
 constexpr JsonLimits kLimits{.bytes = 512'000'000, .values = 50'000'000, .depth = 64};
 
 Error too_large(const std::string& name) {
@@ -146,8 +146,8 @@ class FootprintReader {
   Error unknown_type(const std::string& type, const std::string& place) const {
     const std::string what = "the type " + in_message(type);
     if (const auto right = geojson_type_in_other_case(type)) {
-      return {ErrorCode::invalid_input, name_ + ", " + place, what + " is written \"" + *right + "\"",
-              "correct the capitals"};
+      return {ErrorCode::invalid_input, name_ + ", " + place,
+              what + " is written \"" + *right + "\"", "correct the capitals"};
     }
     return broken(place, what + " is not one of GeoJSON's");
   }

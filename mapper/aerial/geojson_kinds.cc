@@ -50,7 +50,8 @@ std::optional<OtherJson> kind_of_other_json(const nlohmann::json& root) {
     if (*type == "Topology") return OtherJson{"TopoJSON", "ogr2ogr -f GeoJSON NEW.geojson OLD"};
     return std::nullopt;
   }
-  if (root.contains("elements")) return OtherJson{"Overpass JSON", "osmtogeojson OLD > NEW.geojson"};
+  if (root.contains("elements"))
+    return OtherJson{"Overpass JSON", "osmtogeojson OLD > NEW.geojson"};
   if (root.contains("features") && root.contains("geometryType")) {
     return OtherJson{"Esri JSON", "ogr2ogr -f GeoJSON NEW.geojson OLD"};
   }

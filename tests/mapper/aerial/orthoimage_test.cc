@@ -351,6 +351,38 @@ TEST(Orthoimage, FarFinerPixelsThanAskedForAreRefused) {
   EXPECT_THAT(Orthoimage::open({file, "", {}}, 0.2).error().line(), HasSubstr("40 times as fine"));
 }
 
+// The file itself is small: it holds no pixels.
+TEST(Orthoimage, AFileOfHugeTilesIsRefused) {
+  const TempFolder folder;
+  GDALAllRegister();
+  for (const int side : {20000, 256}) {
+    const std::string across = "BLOCKXSIZE=" + std::to_string(side);
+    const std::string down = "BLOCKYSIZE=" + std::to_string(side);
+    CPLStringList options;
+    for (const std::string& word : {std::string("TILED=YES"), across, down,
+                                    std::string("SPARSE_OK=TRUE"), std::string("COMPRESS=LZW")}) {
+      options.AddString(word.c_str());
+    }
+    const std::filesystem::path file = folder / (std::to_string(side) + ".tif");
+    {
+      const std::unique_ptr<GDALDataset> dataset(
+          GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file.c_str(), 20000, 20000, 1,
+                                                                   GDT_Byte, options.List()));
+      ASSERT_NE(dataset, nullptr);
+      std::array<double, 6> transform{5e5, 0.1, 0, 5e6, 0, -0.1};
+      OGRSpatialReference reference;
+      ASSERT_EQ(reference.importFromEPSG(32633), OGRERR_NONE);
+      ASSERT_EQ(dataset->SetGeoTransform(transform.data()), CE_None);
+      ASSERT_EQ(dataset->SetSpatialRef(&reference), CE_None);
+    }
+    if (side == 256) {
+      EXPECT_EQ(refusal(file), "");
+    } else {
+      EXPECT_THAT(refusal(file), HasSubstr("blocks of 20000 x 20000"));
+    }
+  }
+}
+
 // Colours of which the fourth band, tagged as transparency, has these values.
 std::filesystem::path with_alpha(const TempFolder& folder,
                                  const std::function<int(int x, int y)>& alpha) {
