@@ -75,13 +75,19 @@ std::optional<Bounds> area_of(const Options& options) {
   return Bounds{area[0], area[1], area[2], area[3]};
 }
 
+// An area that has all longitudes keeps them.
 Bounds with_view(const Bounds& area) {
   const GeoPoint south_west =
       LocalFrame({area.south_deg, area.west_deg, 0}).geo_from_enu({-kViewM, -kViewM, 0});
   const GeoPoint north_east =
       LocalFrame({area.north_deg, area.east_deg, 0}).geo_from_enu({kViewM, kViewM, 0});
-  return {south_west.longitude_deg, south_west.latitude_deg, north_east.longitude_deg,
-          north_east.latitude_deg};
+  Bounds view{south_west.longitude_deg, south_west.latitude_deg, north_east.longitude_deg,
+              north_east.latitude_deg};
+  if (area.east_deg - area.west_deg > 180 && view.crosses_180()) {
+    view.west_deg = -180;
+    view.east_deg = 180;
+  }
+  return view;
 }
 
 // The walls that are seen from the area. Errors: those of walls_in; not_found where the area has
@@ -122,7 +128,8 @@ std::optional<std::string> wrong_call(const Options& options) {
   }
   const std::optional<Bounds> area = area_of(options);
   if (area && (!area->is_valid() || area->crosses_180())) {
-    return "--area is no box of west, south, east and north";
+    return "--area is no box of west, south, east and north (one across longitude 180 cannot be "
+           "given)";
   }
   if (options.start_deg.empty()) return std::nullopt;
   const GeoPoint start{options.start_deg[0], options.start_deg[1], 0};

@@ -10,10 +10,21 @@ namespace {
 constexpr double kLeastSigmaM = 0.5;
 constexpr double kLeastHeadingSigmaDeg = 0.5;
 
+// Longitudes are counted from the first wall's, for the walls may lie on both sides of 180 degrees.
 GeoPoint middle_of(std::span<const Wall> walls) {
-  Bounds box = bounds_of(walls.front());
-  for (const Wall& wall : walls) box = box.joined(bounds_of(wall));
-  return {(box.south_deg + box.north_deg) / 2, (box.west_deg + box.east_deg) / 2, 0};
+  const double from_deg = walls.front().begin.longitude_deg;
+  const auto box_of = [&](const Wall& wall) {
+    Bounds box = bounds_of(wall);
+    const double turn_deg = std::round((box.west_deg - from_deg) / 360) * 360;
+    box.west_deg -= turn_deg;
+    box.east_deg -= turn_deg;
+    return box;
+  };
+  Bounds box = box_of(walls.front());
+  for (const Wall& wall : walls) box = box.joined(box_of(wall));
+  const double longitude_deg = (box.west_deg + box.east_deg) / 2;
+  return {(box.south_deg + box.north_deg) / 2,
+          longitude_deg - std::round(longitude_deg / 360) * 360, 0};
 }
 
 Eigen::Vector2d plan_from_geo(const LocalFrame& frame, double latitude_deg, double longitude_deg) {

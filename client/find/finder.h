@@ -53,7 +53,7 @@ struct FindFix {
 // the same fixes.
 class Finder {
  public:
-  // REQUIRES: there are walls, and they do not reach across longitude 180; particles > 0.
+  // REQUIRES: there are walls, none of which crosses longitude 180; particles > 0.
   Finder(std::span<const Wall> walls, const Pinhole& view, const FinderSettings& settings);
   ~Finder();
   Finder(Finder&&) noexcept;

@@ -23,16 +23,23 @@ constexpr std::size_t kSurveyedBlocks = 16;  // of the image, for its light
 constexpr double kSurveyedScale = 60;        // of the regions in it
 constexpr double kUnknownAzimuthDeg = 180;   // where no shadow tells
 constexpr double kUnknownElevationDeg = 45;
+constexpr int kMaxSeenPx = 4200;    // of a block along a side, its margins included
+constexpr int kMaxMarginPx = 1000;  // of these
 
 // Joins what two blocks found of one line: the pieces meet at the border between them.
 constexpr MergingSettings kSeam{.max_angle_deg = 4, .max_apart_m = 0.3, .max_gap_m = 0.05};
 
 using OnProgress = std::function<bool(const ExtractionProgress&)>;
 
+// Blocks of fine pixels are smaller, so that each takes no more memory.
 std::vector<Block> blocks_at(const Orthoimage& image, const ExtractionSettings& settings,
                              double metres_per_pixel) {
-  return blocks_of(image.size(), static_cast<int>(std::ceil(settings.block_m / metres_per_pixel)),
-                   static_cast<int>(std::ceil(settings.margin_m / metres_per_pixel)));
+  const auto pixels = [&](double metres) {
+    return static_cast<int>(std::ceil(metres / metres_per_pixel));
+  };
+  const int margin_px = std::min(pixels(settings.margin_m), kMaxMarginPx);
+  const int core_px = std::min(pixels(settings.block_m), kMaxSeenPx - 2 * margin_px);
+  return blocks_of(image.size(), core_px, margin_px);
 }
 
 // A number of blocks at equal distances.
@@ -60,8 +67,7 @@ struct Survey {
 
 // Shadows and sun, from parts of the image at the resolution of regions.
 Result<Survey> survey(const ImageSource& source, const ExtractionSettings& settings) {
-  const Result<Orthoimage> image =
-      Orthoimage::open(source.file, source.reference, settings.regions.metres_per_pixel);
+  const Result<Orthoimage> image = Orthoimage::open(source, settings.regions.metres_per_pixel);
   if (!image) return image.error();
   const std::vector<Block> sample =
       sample_of(blocks_at(*image, settings, settings.regions.metres_per_pixel));
@@ -134,6 +140,9 @@ class Extraction {
     return blocks_.size() > 1 ? merged(std::move(all), kSeam) : all;
   }
 
+  // After run(): whether a block is not wholly transparent.
+  bool shows_anything() const { return shows_anything_; }
+
  private:
   void work() {
     for (std::size_t i = next_++; i < blocks_.size(); i = next_++) {
@@ -156,6 +165,7 @@ class Extraction {
     }();
     if (!picture) return picture.error();
     if (cv::countNonZero(picture->covered) == 0) return ok_status();
+    shows_anything_ = true;
     const StagePictures pictures(pictures_, "block" + std::to_string(number));
     found_[number] = clipped(block_walls(*picture, light_, settings_, pictures),
                              ground_box(block, *picture, image_.size()));
@@ -170,6 +180,7 @@ class Extraction {
   std::vector<Block> blocks_;
   std::vector<WallLines> found_;  // by block: each is written by the thread that has the block
   std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> shows_anything_ = false;
   std::mutex image_mutex_;  // guards image_
   std::mutex mutex_;        // guards done_ and failure_
   std::size_t done_ = 0;
@@ -183,11 +194,10 @@ Result<ExtractedWalls> extract_walls(const ImageSource& source, const Extraction
                                      const OnProgress& on_progress) {
   const Result<Survey> surveyed = survey(source, settings);
   if (!surveyed) return surveyed.error();
-  const Result<Orthoimage> image =
-      Orthoimage::open(source.file, source.reference, settings.metres_per_pixel);
+  const Result<Orthoimage> image = Orthoimage::open(source, settings.metres_per_pixel);
   if (!image) return image.error();
-  Result<WallLines> lines =
-      Extraction(*image, surveyed->light, settings, pictures, on_progress).run(jobs);
+  Extraction extraction(*image, surveyed->light, settings, pictures, on_progress);
+  Result<WallLines> lines = extraction.run(jobs);
   if (!lines) return lines.error();
   if (!settings.without.contains(Stage::merging)) *lines = merged(*lines, settings.merging);
   if (!settings.without.contains(Stage::closure)) *lines = closed(*lines, settings.closure);
@@ -196,6 +206,8 @@ Result<ExtractedWalls> extract_walls(const ImageSource& source, const Extraction
   }
   return ExtractedWalls{image->frame(),
                         image->bounds(),
+                        image->bands(),
+                        extraction.shows_anything(),
                         std::move(*lines),
                         surveyed->light.sun,
                         surveyed->sun_was_estimated,

@@ -15,6 +15,7 @@
 #include "mapper/aerial/edge_maps.h"
 #include "mapper/aerial/ground_frame.h"
 #include "mapper/aerial/merging.h"
+#include "mapper/aerial/orthoimage.h"
 #include "mapper/aerial/progressive_hough.h"
 #include "mapper/aerial/regions.h"
 #include "mapper/aerial/roofs.h"
@@ -55,11 +56,6 @@ struct ExtractionSettings {
   RoofEdgeSettings roof_edges;
 };
 
-struct ImageSource {
-  std::filesystem::path file;
-  std::string reference;  // where the image does not say what its coordinates are
-};
-
 struct ExtractionProgress {
   std::size_t blocks_done = 0;
   std::size_t blocks_total = 0;
@@ -68,6 +64,8 @@ struct ExtractionProgress {
 struct ExtractedWalls {
   GroundFrame frame;
   Bounds bounds;  // of the image
+  ImageBands bands;
+  bool shows_anything = false;  // not all of the image is transparent
   WallLines lines;
   Sun sun;
   bool sun_was_estimated = false;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <GeographicLib/TransverseMercator.hpp>
 
+#include "schema/base/cell_grid.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -20,6 +21,9 @@ class GroundFrame {
   // Metres east and north of the origin; altitudes play no part.
   Eigen::Vector2d ground_from_geo(const GeoPoint& point) const;
   GeoPoint geo_from_ground(const Eigen::Vector2d& ground_m) const;
+  // The box around a rectangle of the ground; where it crosses longitude 180 its west is more than
+  // its east. Around a pole it has all longitudes.
+  Bounds bounds_of(const Eigen::Vector2d& south_west_m, const Eigen::Vector2d& north_east_m) const;
   // The same grid as a PROJ string.
   std::string proj() const;
 

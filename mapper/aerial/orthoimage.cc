@@ -1,74 +1,26 @@
 #include "mapper/aerial/orthoimage.h"
 
-#include <gdal_priv.h>
 #include <gdal_utils.h>
-#include <ogr_spatialref.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
+
+#include "mapper/aerial/gdal.h"
+#include "mapper/aerial/image_ground.h"
 
 namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr GIntBig kCacheBytes = 64 << 20;  // what GDAL may keep of all that it has read
-
-using Dataset = std::unique_ptr<GDALDataset, decltype(&GDALClose)>;
-
-// While it lives GDAL says nothing on standard error; its last message is kept.
-class QuietGdal {
- public:
-  QuietGdal() {
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLErrorReset();
-  }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-
-  // " (MESSAGE)", or nothing where there was none.
-  static std::string in_brackets() {
-    std::string text = CPLGetLastErrorMsg();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.empty() ? text : " (" + text + ")";
-  }
-};
-
-// Bands of a dataset by what they show, counted from 1.
-struct Bands {
-  std::vector<int> shown;  // one (grey or a palette) or three (red, green, blue)
-  int alpha = 0;           // 0: none
-  bool palette = false;
-};
-
-Bands bands_of(GDALDataset& dataset) {
-  Bands bands;
-  std::array<int, 3> rgb{};
-  std::vector<int> opaque;
-  for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
-    const GDALColorInterp shows = dataset.GetRasterBand(i)->GetColorInterpretation();
-    if (shows == GCI_AlphaBand) {
-      bands.alpha = i;
-      continue;
-    }
-    opaque.push_back(i);
-    if (shows >= GCI_RedBand && shows <= GCI_BlueBand) rgb.at(shows - GCI_RedBand) = i;
-  }
-  if (rgb[0] != 0 && rgb[1] != 0 && rgb[2] != 0) {
-    bands.shown.assign(rgb.begin(), rgb.end());
-  } else if (opaque.size() >= 3) {
-    bands.shown.assign(opaque.begin(), opaque.begin() + 3);
-  } else if (!opaque.empty()) {
-    bands.shown = {opaque.front()};
-    bands.palette = dataset.GetRasterBand(opaque.front())->GetColorTable() != nullptr;
-  }
-  return bands;
-}
+// Of the image's pixels to one of the picture's, along a side: GDAL reads a part of the image at
+// once that grows with its square, to 420 MB.
+constexpr double kMaxReduction = 40;
+constexpr std::int64_t kMaxBlockBytes = 256 << 20;  // that the file must be read in at once
+constexpr double kOnePixelM = 1;                    // what rounding may add to a picture's sides
 
 // A virtual dataset of `source` made by one of GDAL's utilities (gdal_translate, gdalwarp).
 Dataset translated(GDALDataset& source, const std::vector<std::string>& words) {
@@ -93,87 +45,64 @@ Dataset warped(GDALDataset& source, const std::vector<std::string>& words) {
   return made;
 }
 
+// Whether the image's own transparency is another band's than the one to be taken.
+bool has_other_alpha(GDALDataset& image, const ImageBands& bands) {
+  if ((image.GetRasterBand(bands.shown.front())->GetMaskFlags() & GMF_ALPHA) == 0) return false;
+  return bands.alpha == 0 ||
+         image.GetRasterBand(bands.alpha)->GetColorInterpretation() != GCI_AlphaBand;
+}
+
 // The colours, or the grey, and the transparency of the image, in this order.
-Dataset shown_bands(GDALDataset& source, const Bands& bands) {
+Dataset shown_bands(GDALDataset& image, const ImageBands& bands) {
   std::vector<std::string> words = {"-of", "VRT"};
   for (const int band : bands.shown) words.insert(words.end(), {"-b", std::to_string(band)});
-  if (bands.palette) {
+  const bool is_grey = bands.shown.size() == 1;
+  if (is_grey && image.GetRasterBand(bands.shown.front())->GetColorTable() != nullptr) {
     words.insert(words.end(), {"-expand", "rgb"});
-  } else if (bands.alpha != 0) {
+    return translated(image, words);
+  }
+  std::string meaning = is_grey ? "gray" : "red,green,blue";
+  if (bands.alpha != 0) {
     words.insert(words.end(), {"-b", std::to_string(bands.alpha)});
+    meaning += ",alpha";
   }
-  return translated(source, words);
+  words.insert(words.end(), {"-colorinterp", meaning});
+  if (has_other_alpha(image, bands)) words.insert(words.end(), {"-mask", "none"});
+  return translated(image, words);
 }
 
-// What the image's coordinates are. Errors: invalid_input.
-Result<OGRSpatialReference> reference_of(GDALDataset& dataset, const std::string& given,
-                                         const fs::path& file) {
-  OGRSpatialReference reference;
-  if (const OGRSpatialReference* const own = dataset.GetSpatialRef(); own != nullptr) {
-    reference = *own;
-  } else if (given.empty()) {
-    return Error{ErrorCode::invalid_input, file.string(), "the image has no georeference",
-                 "say what its coordinates are (--image-crs EPSG:CODE), or give a GeoTIFF"};
-  } else if (reference.SetFromUserInput(given.c_str()) != OGRERR_NONE) {
-    return Error{ErrorCode::invalid_input, "--image-crs " + given, "no such reference is known",
-                 "give one as EPSG:3857"};
-  }
-  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return reference;
-}
-
-// The middle of the image. Errors: invalid_input (the georeference leads nowhere on the Earth).
-Result<GeoPoint> middle_of(GDALDataset& dataset, const OGRSpatialReference& reference,
-                           const fs::path& file) {
-  double transform[6];
-  if (dataset.GetGeoTransform(transform) != CE_None) {
-    return Error{ErrorCode::invalid_input, file.string(), "the image has no georeference",
-                 "give a GeoTIFF, or put a world file beside the image"};
-  }
-  OGRSpatialReference wgs84;
-  wgs84.SetWellKnownGeogCS("WGS84");
-  wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  const std::unique_ptr<OGRCoordinateTransformation> to_wgs84(
-      OGRCreateCoordinateTransformation(&reference, &wgs84));
-  const double column = dataset.GetRasterXSize() / 2.0;
-  const double row = dataset.GetRasterYSize() / 2.0;
-  double x = transform[0] + column * transform[1] + row * transform[2];
-  double y = transform[3] + column * transform[4] + row * transform[5];
-  if (to_wgs84 == nullptr || !to_wgs84->Transform(1, &x, &y) || !is_valid(GeoPoint{y, x, 0})) {
+// Whether reading any part of the image costs a bounded amount of memory.
+Status check_cost(GDALDataset& image, const ImageBands& bands, const ImageGround& ground,
+                  double metres_per_pixel, const fs::path& file) {
+  if (metres_per_pixel > kMaxReduction * ground.finest_pixel_m) {
     return Error{ErrorCode::invalid_input, file.string(),
-                 "its georeference does not lead to a place on the Earth",
-                 "correct it (gdal_edit.py -a_srs EPSG:CODE)"};
+                 "its pixels are more than 40 times as fine as those that are worked with",
+                 "make them coarser (gdalwarp -r average -tr 0.02 0.02)"};
   }
-  return GeoPoint{y, x, 0};
-}
-
-std::string wkt_of(const OGRSpatialReference& reference) {
-  char* text = nullptr;
-  reference.exportToWkt(&text);
-  std::string wkt = text;
-  CPLFree(text);
-  return wkt;
-}
-
-Status check_pixels(GDALDataset& dataset, const Bands& bands, const fs::path& file) {
-  if (bands.shown.empty()) {
-    return Error{ErrorCode::invalid_input, file.string(), "it has no band of grey or colours",
-                 "give an image of one band, or of red, green and blue"};
-  }
-  for (const int band : bands.shown) {
-    const GDALDataType type = dataset.GetRasterBand(band)->GetRasterDataType();
-    if (type == GDT_Byte) continue;
-    return Error{ErrorCode::invalid_input, file.string() + ", band " + std::to_string(band),
-                 std::string("its values are ") + GDALGetDataTypeName(type) + ", not bytes",
-                 "convert it (gdal_translate -ot Byte -scale)"};
+  int width = 0;
+  int height = 0;
+  image.GetRasterBand(bands.shown.front())->GetBlockSize(&width, &height);
+  if (std::int64_t{width} * height * image.GetRasterCount() > kMaxBlockBytes) {
+    return Error{ErrorCode::invalid_input, file.string(),
+                 "it can only be read in blocks of " + std::to_string(width) + " x " +
+                     std::to_string(height) + " pixels, too many for the memory",
+                 "write it in tiles (gdal_translate -co TILED=YES)"};
   }
   return ok_status();
+}
+
+// Whether the picture has the size that the image's corners ask for.
+bool is_of_size(GDALDataset& picture, double metres_per_pixel) {
+  const double limit_m = 2 * kMaxReachM + kOnePixelM;
+  return picture.GetRasterXSize() * metres_per_pixel <= limit_m &&
+         picture.GetRasterYSize() * metres_per_pixel <= limit_m;
 }
 
 }  // namespace
 
 struct Orthoimage::Impl {
   fs::path file;
+  ImageBands bands;
   GroundFrame frame;
   double metres_per_pixel = 0;
   Dataset source{nullptr, &GDALClose};  // closed last: the others read it
@@ -188,8 +117,8 @@ Orthoimage::Orthoimage(Orthoimage&&) noexcept = default;
 Orthoimage& Orthoimage::operator=(Orthoimage&&) noexcept = default;
 Orthoimage::~Orthoimage() = default;
 
-Result<Orthoimage> Orthoimage::open(const fs::path& file, const std::string& reference,
-                                    double metres_per_pixel) {
+Result<Orthoimage> Orthoimage::open(const ImageSource& from, double metres_per_pixel) {
+  const fs::path& file = from.file;
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {
     return Error{ErrorCode::not_found, file.string(), "there is no such file", "check the path"};
@@ -203,23 +132,26 @@ Result<Orthoimage> Orthoimage::open(const fs::path& file, const std::string& ref
                  "it is not an image that can be read" + QuietGdal::in_brackets(),
                  "give a GeoTIFF, or an image with a world file"};
   }
-  const Bands bands = bands_of(*source);
-  if (const Status status = check_pixels(*source, bands, file); !status) return status.error();
-  const Result<OGRSpatialReference> own = reference_of(*source, reference, file);
-  if (!own) return own.error();
-  const Result<GeoPoint> middle = middle_of(*source, *own, file);
-  if (!middle) return middle.error();
+  const Result<ImageGround> ground = ground_of(*source, from.reference, file);
+  if (!ground) return ground.error();
+  const Result<ImageBands> bands =
+      from.bands.empty() ? bands_by_tags(*source, file) : bands_named(from.bands);
+  if (!bands) return bands.error();
+  Status status = check_bands(*source, *bands, file);
+  if (status.ok()) status = check_cost(*source, *bands, *ground, metres_per_pixel, file);
+  if (!status.ok()) return status.error();
 
-  auto impl = std::make_unique<Impl>(Impl{file, GroundFrame(*middle), metres_per_pixel});
-  impl->shown = shown_bands(*source, bands);
+  auto impl =
+      std::make_unique<Impl>(Impl{file, *bands, GroundFrame(ground->middle), metres_per_pixel});
+  impl->shown = shown_bands(*source, *bands);
   impl->source = std::move(source);
   if (impl->shown != nullptr) {
+    const std::string grid = impl->frame.proj() + (ground->goes_beyond_180 ? " +over" : "");
     const std::string pixel = std::to_string(metres_per_pixel);
-    impl->picture =
-        warped(*impl->shown, {"-of", "VRT", "-s_srs", wkt_of(*own), "-t_srs", impl->frame.proj(),
-                              "-tr", pixel, pixel, "-r", "cubic", "-dstalpha"});
+    impl->picture = warped(*impl->shown, {"-of", "VRT", "-s_srs", ground->reference, "-t_srs", grid,
+                                          "-tr", pixel, pixel, "-r", "cubic", "-dstalpha"});
   }
-  if (impl->picture == nullptr) {
+  if (impl->picture == nullptr || !is_of_size(*impl->picture, metres_per_pixel)) {
     return Error{ErrorCode::invalid_input, file.string(),
                  "it cannot be brought to the ground" + QuietGdal::in_brackets(),
                  "check its georeference"};
@@ -237,18 +169,12 @@ cv::Size Orthoimage::size() const {
 
 const GroundFrame& Orthoimage::frame() const { return impl_->frame; }
 
+const ImageBands& Orthoimage::bands() const { return impl_->bands; }
+
 Bounds Orthoimage::bounds() const {
   const double east_m = impl_->west_m + size().width * impl_->metres_per_pixel;
   const double south_m = impl_->north_m - size().height * impl_->metres_per_pixel;
-  Bounds bounds{180, 90, -180, -90};
-  for (const double x_m : {impl_->west_m, east_m}) {
-    for (const double y_m : {south_m, impl_->north_m}) {
-      const GeoPoint corner = frame().geo_from_ground({x_m, y_m});
-      bounds = bounds.joined(
-          {corner.longitude_deg, corner.latitude_deg, corner.longitude_deg, corner.latitude_deg});
-    }
-  }
-  return bounds;
+  return frame().bounds_of({impl_->west_m, south_m}, {east_m, impl_->north_m});
 }
 
 Result<Picture> Orthoimage::read(const cv::Rect& block) const {

@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 #include "mapper/aerial/ground_frame.h"
+#include "mapper/aerial/image_bands.h"
 #include "schema/base/cell_grid.h"
 #include "schema/base/result.h"
 
@@ -38,15 +40,22 @@ struct Picture {
   PixelGrid grid;
 };
 
+struct ImageSource {
+  std::filesystem::path file;
+  // What the image's coordinates are, where it does not say, as one with a world file: EPSG:3857,
+  // or in any other way that GDAL knows.
+  std::string reference;
+  std::vector<int> bands;  // as bands_named has them; empty: what the image says of them
+};
+
 // Whatever GDAL reads: any projection, grey, colours or a palette, with or without transparency.
 // Not safe to use from several threads at once.
 class Orthoimage {
  public:
-  // `reference`, as EPSG:3857 or in any other way that GDAL knows, says what the image's
-  // coordinates are where the image does not, as one with a world file; else it may be empty.
-  // Errors: not_found; invalid_input (no image, no georeference, pixels that are not bytes).
-  static Result<Orthoimage> open(const std::filesystem::path& file, const std::string& reference,
-                                 double metres_per_pixel);
+  // No pixels are read but a sample of a band of transparency. Errors: not_found; those of
+  // bands_named, bands_by_tags, check_bands and ground_of; invalid_input (no image, or one of which
+  // no small part can be read for itself).
+  static Result<Orthoimage> open(const ImageSource& source, double metres_per_pixel);
 
   Orthoimage(Orthoimage&&) noexcept;
   Orthoimage& operator=(Orthoimage&&) noexcept;
@@ -54,7 +63,8 @@ class Orthoimage {
 
   cv::Size size() const;  // in pixels of metres_per_pixel
   const GroundFrame& frame() const;
-  Bounds bounds() const;  // a box around the whole image
+  const ImageBands& bands() const;
+  Bounds bounds() const;  // a box around the whole image; it may cross longitude 180
 
   // The part of `block` that lies in the image. Errors: corrupt (the file is damaged there).
   // REQUIRES: `block` meets the image.

@@ -1,5 +1,7 @@
 #include "mapper/aerial/wall_layer.h"
 
+#include "mapper/aerial/storable_walls.h"
+#include "schema/geo/geodesy.h"
 #include "schema/store/map_store.h"
 #include "schema/tile/codec.h"
 #include "schema/tile/table.h"
@@ -53,6 +55,15 @@ Status copy_others(const MapReader& from, MapWriter& to) {
   return ok_status();
 }
 
+// What no reader would take is not written. Errors: those of decode_walls.
+Status check_readable(const Bytes& frame, const fs::path& map_file) {
+  const Result<WallTile> tile = decode_walls(frame);
+  if (tile) return ok_status();
+  return Error{ErrorCode::invalid_input, map_file.string() + ", " + tile.error().where,
+               "it would not be readable: " + tile.error().what,
+               "leave out the part of the image or of the footprints that lies there"};
+}
+
 Status add_walls(const std::vector<WallTile>& tiles, const fs::path& map_file, MapWriter& to) {
   for (const WallTile& tile : tiles) {
     if (tile.walls.size() > kMaxWallsPerTile) {
@@ -62,16 +73,29 @@ Status add_walls(const std::vector<WallTile>& tiles, const fs::path& map_file, M
                        std::to_string(kMaxWallsPerTile),
                    "ask for longer lines"};
     }
-    const Status status = to.add_cell(kLayer, tile.cell, tile.walls.size(), encode_walls(tile));
+    const Bytes frame = encode_walls(tile);
+    if (const Status status = check_readable(frame, map_file); !status) return status;
+    const Status status = to.add_cell(kLayer, tile.cell, tile.walls.size(), frame);
     if (!status) return status;
   }
   return ok_status();
+}
+
+double total_length_m(const std::vector<Wall>& walls) {
+  double length_m = 0;
+  for (const Wall& wall : walls) {
+    length_m += geodesic_distance_m({wall.begin.latitude_deg, wall.begin.longitude_deg, 0},
+                                    {wall.end.latitude_deg, wall.end.longitude_deg, 0});
+  }
+  return length_m;
 }
 
 }  // namespace
 
 Result<WallLayerReport> write_wall_layer(const fs::path& map_file, const std::vector<Wall>& walls,
                                          const std::string& parameters_json) {
+  const Result<std::vector<Wall>> storable = storable_walls(walls);
+  if (!storable) return storable.error();
   Result<MapWriter> writer = MapWriter::create(map_file);
   if (!writer) return writer.error();
   std::error_code ignored;
@@ -83,11 +107,12 @@ Result<WallLayerReport> write_wall_layer(const fs::path& map_file, const std::ve
   if (const Status status = writer->add_layer(kLayer, parameters_json); !status) {
     return status.error();
   }
-  const std::vector<WallTile> tiles = tiles_of(walls);
+  const std::vector<WallTile> tiles = tiles_of(*storable);
   if (const Status status = add_walls(tiles, map_file, *writer); !status) return status.error();
   Result<std::string> build = writer->finish();
   if (!build) return build.error();
-  return WallLayerReport{std::move(*build), tiles.size()};
+  return WallLayerReport{std::move(*build), storable->size(), total_length_m(*storable),
+                         tiles.size()};
 }
 
 }  // namespace milepost

@@ -12,12 +12,15 @@ namespace milepost {
 
 struct WallLayerReport {
   std::string build;
+  std::size_t walls = 0;  // as they are stored: cut, each once
+  double length_m = 0;    // of them all
   std::size_t cells = 0;
 };
 
-// Writes a map with the walls in the layer `walls`. Where `map_file` exists, all else that it holds
-// is kept and only this layer is replaced. The file appears whole or not at all. `parameters_json`
-// are the layer's. Errors: corrupt (the old map), invalid_input (too many walls in one place), io.
+// Writes a map with the walls in the layer `walls`, as storable_walls cuts them. Where `map_file`
+// exists, all else that it holds is kept and only this layer is replaced. The file appears whole or
+// not at all. `parameters_json` are the layer's. Errors: corrupt (the old map), invalid_input (too
+// many walls in one place, those of storable_walls), io.
 Result<WallLayerReport> write_wall_layer(const std::filesystem::path& map_file,
                                          const std::vector<Wall>& walls,
                                          const std::string& parameters_json);

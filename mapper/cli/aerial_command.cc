@@ -15,6 +15,7 @@
 #include "mapper/aerial/coverage.h"
 #include "mapper/aerial/extraction.h"
 #include "mapper/aerial/footprints.h"
+#include "mapper/aerial/storable_walls.h"
 #include "mapper/aerial/wall_layer.h"
 #include "schema/command/command.h"
 
@@ -39,6 +40,7 @@ struct AerialOptions {
   std::string map;
   std::string debug_images;
   std::vector<std::string> without;
+  bool allow_empty = false;
   double sun_azimuth_deg = 0;
   double sun_elevation_deg = 0;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -50,6 +52,15 @@ void add_options(CLI::App& app, AerialOptions& options) {
   app.add_option("--image-crs", options.image.reference,
                  "What the image's coordinates are, where it does not say: EPSG:3857")
       ->option_text("CRS");
+  app.add_option("--bands", options.image.bands,
+                 "Which bands of the image to look at, counted from 1: one of grey or three of "
+                 "red,\n"
+                 "green and blue, and after them one of transparency, if it has one (default: what "
+                 "the\n"
+                 "image says of them; a band that it calls transparency but that has many values\n"
+                 "between 0 and 255, as near infrared, is not taken for it)")
+      ->delimiter(',')
+      ->option_text("R,G,B[,A]");
   app.add_option("--footprints", options.footprints,
                  "GeoJSON of building outlines, which become walls as they are")
       ->option_text("FILE");
@@ -57,6 +68,8 @@ void add_options(CLI::App& app, AerialOptions& options) {
                  "Map file to write the layer walls into; all else that it holds stays")
       ->required()
       ->option_text("FILE");
+  app.add_flag("--allow-empty", options.allow_empty,
+               "Write the map even if nothing was found for it");
   app.add_option("--debug-images", options.debug_images,
                  "Folder for a picture of each stage of each block")
       ->option_text("DIR");
@@ -126,6 +139,8 @@ std::string parameters_json(const AerialOptions& options,
   }
   if (extracted) {
     parameters["image"] = options.image.file.filename().string();
+    parameters["bands"] = extracted->bands.shown;
+    if (extracted->bands.alpha != 0) parameters["alpha_band"] = extracted->bands.alpha;
     parameters["bounds"] = {{"west_deg", extracted->bounds.west_deg},
                             {"south_deg", extracted->bounds.south_deg},
                             {"east_deg", extracted->bounds.east_deg},
@@ -141,23 +156,59 @@ std::string parameters_json(const AerialOptions& options,
   return parameters.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+// What became of a band, where it is not what the image says; else nothing.
+std::string note_on_bands(const ImageBands& bands) {
+  if (bands.distrusted_alpha == 0) return "";
+  return "band " + std::to_string(bands.distrusted_alpha) +
+         " is taken for data, not for transparency";
+}
+
 std::string summary_line(const AerialOptions& options, const WallLayerReport& report,
-                         const std::vector<Wall>& walls,
                          const std::optional<ExtractedWalls>& extracted) {
-  double length_m = 0;
-  for (const Wall& wall : walls) {
-    length_m += geodesic_distance_m({wall.begin.latitude_deg, wall.begin.longitude_deg, 0},
-                                    {wall.end.latitude_deg, wall.end.longitude_deg, 0});
-  }
   std::ostringstream line;
   line << std::fixed << std::setprecision(0) << options.map << ": build " << report.build << ", "
-       << walls.size() << " walls of " << length_m << " m in " << report.cells
+       << report.walls << " walls of " << report.length_m << " m in " << report.cells
        << (report.cells == 1 ? " cell" : " cells");
   if (extracted) {
     line << ", sun at azimuth " << extracted->sun.azimuth_deg << " degrees"
          << (extracted->sun_was_estimated ? " (estimated from the shadows)" : "");
+    const std::string note = note_on_bands(extracted->bands);
+    if (!note.empty()) line << "; " << note << " (--bands chooses)";
   }
   return line.str();
+}
+
+constexpr const char* kAllowEmpty = "or write the map without walls by --allow-empty";
+
+Error no_wall_in_footprints(const AerialOptions& options, const std::string& contents) {
+  return {ErrorCode::invalid_input, options.footprints, "it holds " + contents + ", so no wall",
+          std::string("give the outlines of buildings as Polygons, ") + kAllowEmpty};
+}
+
+Error no_wall_in_image(const AerialOptions& options, const ExtractedWalls& extracted) {
+  const std::string file = options.image.file.string();
+  if (!extracted.shows_anything) {
+    return {ErrorCode::invalid_input, file, "all of it is transparent or without data",
+            std::string("choose its bands by --bands, ") + kAllowEmpty};
+  }
+  const std::string note = note_on_bands(extracted.bands);
+  return {ErrorCode::invalid_input, file,
+          "no wall was found in it" + (note.empty() ? note : " (" + note + ")"),
+          std::string("look at what became of it (--debug-images), ") + kAllowEmpty};
+}
+
+// The walls of the footprints, if there is a file of them. Errors: those of read_footprints;
+// invalid_input where it has none.
+Result<std::vector<Wall>> footprint_walls(const AerialOptions& options) {
+  if (options.footprints.empty()) return std::vector<Wall>();
+  Result<Footprints> footprints = read_footprints(options.footprints);
+  if (!footprints) return footprints.error();
+  for (Wall& wall : footprints->walls) wall.sigma_m = kFootprintSigmaM;
+  Result<std::vector<Wall>> walls = storable_walls(footprints->walls);
+  if (walls && walls->empty() && !options.allow_empty) {
+    return no_wall_in_footprints(options, footprints->contents);
+  }
+  return walls;
 }
 
 Result<std::optional<ExtractedWalls>> extracted_walls(const AerialOptions& options) {
@@ -189,23 +240,32 @@ int run_aerial(const std::string& program, std::vector<std::string> words) {
   CLI::App app(
       "Finds the walls of buildings from above and writes them into a map as its layer walls, by\n"
       "which a vehicle finds itself without GPS.\n\n"
-      "With --image an orthoimage is searched, of any size, resolution and projection that GDAL\n"
-      "reads: edges at several settings; without the borders that shadows have on the ground, and\n"
-      "without vegetation; lines, the longest first; roofs, by shape, shadow and the colours that\n"
-      "the image's own clearest roofs have, and the lines at their edges; then what is one line "
-      "is\n"
+      "With --image an orthoimage is searched, of any projection that GDAL reads; its pixels are\n"
+      "of at most 1.2 m on the ground, its corners within 100 km of the middle. Edges are found "
+      "at\n"
+      "several settings, without the borders that shadows have on the ground and without\n"
+      "vegetation; lines, the longest first; roofs, by shape, shadow and the colours that the\n"
+      "image's own clearest roofs have, and the lines at their edges; then what is one line is\n"
       "joined, and lines that meet no other at either end are left out.\n"
       "With --footprints the outlines of a GeoJSON file (WGS84), as OpenStreetMap has them, "
       "become\n"
       "walls, and the image, if there is one, adds those that it knows beside them.\n"
+      "A wall across longitude 180 is cut there.\n"
       "An old map keeps its segments and other layers, its old walls are replaced; the file is\n"
-      "changed when all is done.\n"
+      "changed when all is done, and not where no wall was found.\n"
       "Example: milepost-mapper aerial --image town.tif --map maps/town.map\n"
       "         milepost-mapper aerial --footprints town.geojson --map maps/town.map",
       program);
   AerialOptions options;
   add_options(app, options);
   if (const auto code = parse_words(app, std::move(words))) return *code;
+  if (app.count("--bands") > 0) {
+    const Result<ImageBands> bands = bands_named(options.image.bands);
+    if (!bands) {
+      std::cerr << program << ": " << bands.error().line() << "\n";
+      return kExitWrongCall;
+    }
+  }
   if (options.image.file.empty() && options.footprints.empty()) {
     std::cerr << program << ": --image or --footprints is required; see '" << program
               << " --help'\n";
@@ -223,23 +283,23 @@ int run_aerial(const std::string& program, std::vector<std::string> words) {
 
   catch_stop_signals();
   cv::setNumThreads(1);  // one block a thread uses the cores better than many threads a block
-  std::vector<Wall> footprints;
-  if (!options.footprints.empty()) {
-    Result<std::vector<Wall>> read = read_footprints(options.footprints);
-    if (!read) return fail(program, read.error());
-    footprints = std::move(*read);
-  }
-  for (Wall& wall : footprints) wall.sigma_m = kFootprintSigmaM;
+  Result<std::vector<Wall>> footprints = footprint_walls(options);
+  if (!footprints) return fail(program, footprints.error());
   if (const Status made = make_folder(options.debug_images); !made) {
     return fail(program, made.error());
   }
   const Result<std::optional<ExtractedWalls>> extracted = extracted_walls(options);
   if (!extracted) return fail(program, extracted.error());
-  const std::vector<Wall> walls = all_walls(std::move(footprints), *extracted);
+  const Result<std::vector<Wall>> walls =
+      storable_walls(all_walls(std::move(*footprints), *extracted));
+  if (!walls) return fail(program, walls.error());
+  if (walls->empty() && *extracted && !options.allow_empty) {
+    return fail(program, no_wall_in_image(options, **extracted));
+  }
   const Result<WallLayerReport> report =
-      write_wall_layer(options.map, walls, parameters_json(options, *extracted));
+      write_wall_layer(options.map, *walls, parameters_json(options, *extracted));
   if (!report) return fail(program, report.error());
-  std::cout << summary_line(options, *report, walls, *extracted) << "\n";
+  std::cout << summary_line(options, *report, *extracted) << "\n";
   return kExitDone;
 }
 

@@ -31,6 +31,7 @@ std::vector<WallTile> tiles_of(const std::vector<Wall>& walls) {
   std::map<std::uint32_t, std::vector<Wall>> walls_by_cell;
   for (const Wall& exact : walls) {
     const Wall wall = quantized(exact);
+    if (wall.begin == wall.end) continue;
     const Bounds box = bounds_of(wall);
     const GridCell first = GridCell::at(box.south_deg, box.west_deg);
     const GridCell last = GridCell::at(box.north_deg, box.east_deg);

@@ -39,9 +39,9 @@ Bounds bounds_of(const Wall& wall);
 // The wall as it comes back from its bytes.
 Wall quantized(const Wall& wall);
 
-// The tiles of walls, ascending by cell: quantized, sorted, each wall once a cell.
-// REQUIRES: every wall is in range, spans no more than 0.1 degrees and does not cross
-// longitude 180.
+// The tiles of walls, ascending by cell: quantized, sorted, each wall once a cell, those without
+// length left out. REQUIRES: every wall is in range, spans no more than 0.1 degrees and does not
+// cross longitude 180.
 std::vector<WallTile> tiles_of(const std::vector<Wall>& walls);
 
 // The walls of several tiles, sorted, those in more than one tile once.

@@ -30,13 +30,13 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: find_bench FOOTPRINTS DRIVE [PARTICLES]\n");
     return 2;
   }
-  const Result<std::vector<Wall>> walls = read_footprints(argv[1]);
-  if (!walls) return fail(walls.error());
+  const Result<Footprints> footprints = read_footprints(argv[1]);
+  if (!footprints) return fail(footprints.error());
   const Result<Drive> drive = read_drive(argv[2]);
   if (!drive) return fail(drive.error());
   FinderSettings settings;
   if (argc > 3) settings.particles = std::strtoul(argv[3], nullptr, 10);
-  Finder finder(*walls, pinhole_of(drive->camera), settings);
+  Finder finder(footprints->walls, pinhole_of(drive->camera), settings);
 
   cv::setNumThreads(1);
   const auto segments = cv::createLineSegmentDetector();

@@ -103,6 +103,39 @@ class Find(CommandTest):
         self.assertIn("<svg", page)
         self.assertNotIn("http://", page.replace("http://www.w3.org", ""))
 
+    def test_walls_across_180_are_as_good_as_others(self):
+        town = json.loads(self.footprints.read_text())
+        middle = self.truth()[len(self.truth()) // 2][1]
+
+        def moved(coordinates):
+            if isinstance(coordinates[0], list):
+                return [moved(part) for part in coordinates]
+            return [coordinates[0] - middle + 180, *coordinates[1:]]
+
+        for feature in town["features"]:
+            feature["geometry"]["coordinates"] = moved(feature["geometry"]["coordinates"])
+        self.footprints.write_text(json.dumps(town))
+        self.make_walls()
+        words = self.start_words()
+        latitude, longitude, _ = self.truth()[0]
+        words[1] = f"{latitude:.7f},{(longitude - middle) % 360 - 180:.7f}"
+        self.expect_done(self.find("--map", self.map, "--report", self.folder / "report.html", *words))
+        rows = rows_of(self.fixes)
+        sides = {float(row["longitude_deg"]) > 0 for row in rows}
+        self.assertEqual(sides, {True, False})
+        for row in rows:
+            row["longitude_deg"] = (float(row["longitude_deg"]) + 360) % 360 - 180 + middle
+        errors = self.errors_m(rows)
+        self.assertLess(sum(errors) / len(errors), 4)
+
+    def test_all_walls_of_a_map_across_180_are_looked_at(self):
+        rings = [[[[east, -16.5], [east + 1e-5, -16.5], [east, -16.4999], [east, -16.5]]]
+                 for east in (179.98, 179.9999, -179.9999, -179.98)]
+        self.footprints.write_text(json.dumps({"type": "MultiPolygon", "coordinates": rings}))
+        self.make_walls()
+        self.expect_done(self.find("--map", self.map, "--particles", 1000, "--method", "orientations"))
+        self.assertGreater(float(rows_of(self.fixes)[0]["sigma_m"]), 500)  # of a belief over 4 km
+
     def test_the_papers_method_runs_too(self):
         self.make_walls()
         self.expect_done(self.find("--map", self.map, "--method", "orientations", "--particles", 300, *self.start_words()))
@@ -127,7 +160,8 @@ class Find(CommandTest):
                       ["--map", "m", "--start-sigma-m", 3], ["--map", "m", "--start", "91,8"],
                       ["--map", "m", "--start", "nan,8"], []):
             self.assertEqual(self.find(*words).returncode, 2, words)
-        for words, message in ((["--area", "9,49,8,50"], "--area is no box"), (["--area", "8,49,9,nan"], "--area is no box"),
+        for words, message in ((["--area", "9,49,8,50"], "--area is no box"),
+                               (["--area", "179.9,-17,-179.9,-16"], "across longitude 180"), (["--area", "8,49,9,nan"], "--area is no box"),
                                (["--area", "8,49,9,50", "--start", "49.5,7.9"], "--start lies outside of --area"),
                                (["--area", "8,49,9,50", "--start", "48.9,8.5"], "--start lies outside of --area")):
             self.expect_refused(self.find("--map", "m", *words), 2, message)

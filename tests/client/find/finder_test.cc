@@ -64,6 +64,15 @@ TEST(Finder, HasTheWallsInMetresAboutTheirMiddle) {
   EXPECT_EQ(second.sigma_m, 0.7);
 }
 
+TEST(Finder, TheMiddleOfWallsOnBothSidesOf180IsBetweenThem) {
+  const std::vector<Wall> walls = {{{-16.5, 179.999}, {-16.4999, 179.999}, 0.3},
+                                   {{-16.5, -179.997}, {-16.4999, -179.997}, 0.3}};
+  const Finder finder(walls, kView, {});
+  EXPECT_LT(geodesic_distance_m(finder.origin(), {-16.49995, -179.999, 0}), 0.01);
+  const PlanBox box = finder.walls().bounds();
+  EXPECT_NEAR((box.max_m - box.min_m).x(), 0.004 * 106756, 1);
+}
+
 TEST(Finder, WithoutAnyIdeaItLooksAboutAllWalls) {
   FinderSettings settings;
   settings.particles = 4000;

@@ -111,7 +111,7 @@ def mapped(mapper, image, *words):
     """Walls that the mapper finds in an image, and the box of the image."""
     with tempfile.TemporaryDirectory() as folder:
         map_file, lines = pathlib.Path(folder) / "walls.map", pathlib.Path(folder) / "walls.geojson"
-        for call in (("aerial", "--image", image, "--map", map_file, *words),
+        for call in (("aerial", "--image", image, "--map", map_file, "--allow-empty", *words),
                      ("export", "--map", map_file, "--layer", "walls", "--geojson", lines)):
             result = subprocess.run([mapper, *call], capture_output=True, text=True, check=False)
             if result.returncode != 0:

@@ -42,7 +42,7 @@ ExtractionSettings small_blocks() {
 bool go_on(const ExtractionProgress&) { return true; }
 
 ExtractedWalls extract(const fs::path& file, const ExtractionSettings& settings, int jobs = 2) {
-  Result<ExtractedWalls> walls = extract_walls({file, ""}, settings, jobs, "", go_on);
+  Result<ExtractedWalls> walls = extract_walls({file, "", {}}, settings, jobs, "", go_on);
   EXPECT_TRUE(walls.ok()) << walls.error().line();
   return std::move(*walls);
 }
@@ -140,7 +140,7 @@ TEST_F(Extraction, GreyImagesHaveWallsToo) {
 TEST_F(Extraction, DrawsEveryStage) {
   const fs::path pictures = folder_ / "pictures";
   fs::create_directory(pictures);
-  ASSERT_TRUE(extract_walls({file_, ""}, {}, 1, pictures, go_on).ok());
+  ASSERT_TRUE(extract_walls({file_, "", {}}, {}, 1, pictures, go_on).ok());
   for (const char* const name : {"1-picture", "2-edges", "3-shadows", "4-clutter", "5-lines",
                                  "6-regions-1", "6-regions-4", "7-roofs", "8-roof-edges"}) {
     EXPECT_TRUE(fs::exists(pictures / ("block0-" + std::string(name) + ".png"))) << name;
@@ -149,7 +149,7 @@ TEST_F(Extraction, DrawsEveryStage) {
 
 TEST_F(Extraction, StopsOnRequest) {
   const Result<ExtractedWalls> walls =
-      extract_walls({file_, ""}, small_blocks(), 1, "",
+      extract_walls({file_, "", {}}, small_blocks(), 1, "",
                     [](const ExtractionProgress& at) { return at.blocks_done < 2; });
   ASSERT_FALSE(walls.ok());
   EXPECT_EQ(walls.error().code, ErrorCode::cancelled);

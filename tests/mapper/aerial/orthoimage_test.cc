@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include "mapper/aerial/ground_frame.h"
@@ -18,6 +20,7 @@ namespace milepost {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using testing::TempFolder;
 
@@ -72,7 +75,7 @@ cv::Vec3b middle_of(const Picture& picture) {
 }
 
 Picture read_all(const std::filesystem::path& file, double metres_per_pixel) {
-  const Result<Orthoimage> image = Orthoimage::open(file, "", metres_per_pixel);
+  const Result<Orthoimage> image = Orthoimage::open({file, "", {}}, metres_per_pixel);
   EXPECT_TRUE(image.ok()) << image.error().line();
   const Result<Picture> picture = image->read(cv::Rect({0, 0}, image->size()));
   EXPECT_TRUE(picture.ok());
@@ -80,7 +83,7 @@ Picture read_all(const std::filesystem::path& file, double metres_per_pixel) {
 }
 
 std::string refusal(const std::filesystem::path& file) {
-  const Result<Orthoimage> image = Orthoimage::open(file, "", 0.1);
+  const Result<Orthoimage> image = Orthoimage::open({file, "", {}}, 0.1);
   return image.ok() ? "" : image.error().line();
 }
 
@@ -100,7 +103,7 @@ TEST(Orthoimage, ABlockIsAPartOfTheWhole) {
   write_image(folder / "a.tif", kRgb,
               [](int band, int x, int y) { return (x * 3 + y * 7 + band * 50) % 256; });
   const Picture whole = read_all(folder / "a.tif", 0.1);
-  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "", 0.1);
+  const Result<Orthoimage> image = Orthoimage::open({folder / "a.tif", "", {}}, 0.1);
   const cv::Rect block(130, 70, 90, 110);
   const Result<Picture> part = image->read(block);
   ASSERT_TRUE(part.ok());
@@ -157,7 +160,7 @@ TEST(Orthoimage, DegreesAreAReferenceToo) {
   ASSERT_EQ(dataset->SetGeoTransform(transform), CE_None);
   ASSERT_EQ(dataset->SetSpatialRef(&reference), CE_None);
   dataset->FlushCache();
-  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "", 0.2);
+  const Result<Orthoimage> image = Orthoimage::open({folder / "a.tif", "", {}}, 0.2);
   ASSERT_TRUE(image.ok()) << image.error().line();
   const GeoPoint middle{kPlace.latitude_deg - 1e-4, kPlace.longitude_deg + 2e-4, 0};
   EXPECT_LT(geodesic_distance_m(image->frame().origin(), middle), 0.5);
@@ -167,7 +170,7 @@ TEST(Orthoimage, DegreesAreAReferenceToo) {
 TEST(Orthoimage, ItsBoundsAreThoseOfItsPixels) {
   const TempFolder folder;
   write_image(folder / "a.tif", kRgb, [](int, int, int) { return 90; });
-  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "", 0.1);
+  const Result<Orthoimage> image = Orthoimage::open({folder / "a.tif", "", {}}, 0.1);
   ASSERT_TRUE(image.ok());
   EXPECT_LT(geodesic_distance_m(image->frame().origin(), kPlace), 0.5);
   const Bounds bounds = image->bounds();
@@ -216,10 +219,10 @@ TEST(Orthoimage, AWorldFileNeedsAReference) {
       folder / "a.tif", kRgb, [](int, int, int) { return 90; }, GDT_Byte, false);
   std::ofstream(folder / "a.tfw") << "0.4\n0\n0\n-0.4\n1168854\n8399738\n";
   EXPECT_THAT(refusal(folder / "a.tif"), AllOf(HasSubstr("a.tif"), HasSubstr("--image-crs")));
-  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "EPSG:3857", 0.1);
+  const Result<Orthoimage> image = Orthoimage::open({folder / "a.tif", "EPSG:3857", {}}, 0.1);
   ASSERT_TRUE(image.ok());
   EXPECT_NEAR(image->frame().origin().latitude_deg, 60, 0.01);
-  EXPECT_FALSE(Orthoimage::open(folder / "a.tif", "EPSG:nothing", 0.1).ok());
+  EXPECT_FALSE(Orthoimage::open({folder / "a.tif", "EPSG:nothing", {}}, 0.1).ok());
 }
 
 TEST(Orthoimage, WhatCannotBeUsedIsRefused) {
@@ -237,11 +240,268 @@ TEST(Orthoimage, WhatCannotBeUsedIsRefused) {
   EXPECT_THAT(refusal(folder / "deep.tif"), AllOf(HasSubstr("band 1"), HasSubstr("UInt16")));
 }
 
+// An image of kSide x kSide pixels with these coordinates of its top left corner and its pixels'
+// sides, its rows turned by `turn`.
+std::filesystem::path placed(const TempFolder& folder, const std::string& reference,
+                             const std::array<double, 6>& transform) {
+  const std::filesystem::path file = folder / "placed.tif";
+  write_image(
+      file, kRgb, [](int, int x, int y) { return x < kSide / 2 ? 40 : 150 + y % 50; }, GDT_Byte,
+      false);
+  const std::unique_ptr<GDALDataset> dataset(
+      GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+  OGRSpatialReference named;
+  EXPECT_EQ(named.SetFromUserInput(reference.c_str()), OGRERR_NONE);
+  std::array<double, 6> copy = transform;
+  EXPECT_EQ(dataset->SetGeoTransform(copy.data()), CE_None);
+  EXPECT_EQ(dataset->SetSpatialRef(&named), CE_None);
+  return file;
+}
+
+constexpr double kWorldEdgeM = 20037508.342789244;  // of EPSG:3857, at longitude 180
+
+TEST(Orthoimage, TooCoarsePixelsAreRefusedBeforeTheyAreRead) {
+  const TempFolder folder;
+  const std::string world = refusal(placed(folder, "EPSG:4326", {-180, 1.8, 0, 90, 0, -0.9}));
+  EXPECT_THAT(world, AllOf(HasSubstr("in its middle"), HasSubstr("at most 1.2 m")));
+  EXPECT_THAT(refusal(placed(folder, "EPSG:32633", {5e5, 10, 0, 5e6, 0, -10})),
+              HasSubstr("is 10 m long"));
+  EXPECT_THAT(refusal(placed(folder, "EPSG:32633", {5e5, 1.3, 0, 5e6, 0, -0.3})),
+              HasSubstr("is 1.3 m long"));
+  EXPECT_EQ(refusal(placed(folder, "EPSG:32633", {5e5, 1, 0, 5e6, 0, -1})), "");
+  // Of a map in degrees up to a pole, pixels are wide in the south only.
+  EXPECT_THAT(refusal(placed(folder, "EPSG:4326", {8, 0.335, 0, 90, 0, -1e-5})),
+              AllOf(HasSubstr("corner is 1.3 m long"), HasSubstr("at most 1.2 m")));
+}
+
+TEST(Orthoimage, ItMayGoAcross180) {
+  const TempFolder folder;
+  const double row_deg = 2e-6;
+  for (const auto& [reference, transform] :
+       std::vector<std::pair<std::string, std::array<double, 6>>>{
+           {"EPSG:3857", {kWorldEdgeM - 20, 0.2, 0, 39135, 0, -0.2}},
+           {"EPSG:3857", {-kWorldEdgeM - 10, 0.2, 0, 39135, 0, -0.2}},
+           {"EPSG:4326", {180 - 3e-4, 2e-6, 0, -16.5, 0, -row_deg}},
+           {"EPSG:4326", {180 - 1e-4, 2e-6, 0, -16.5, 0, -row_deg}},
+           {"EPSG:4326", {-180 - 3e-4, 2e-6, 0, -16.5, 0, -row_deg}},
+           {"EPSG:32760", {820260, 0.2, 0, 8173600, 0, -0.2}}}) {
+    const Result<Orthoimage> image =
+        Orthoimage::open({placed(folder, reference, transform), "", {}}, 0.2);
+    ASSERT_TRUE(image.ok()) << image.error().line();
+    const Result<Picture> picture = image->read(cv::Rect({0, 0}, image->size()));
+    ASSERT_TRUE(picture.ok());
+    EXPECT_LT(picture->bgr.cols, 260) << reference;
+    EXPECT_GT(cv::countNonZero(picture->covered),
+              0.85 * static_cast<double>(picture->covered.total()))
+        << reference << " " << transform[0];
+    const Bounds bounds = image->bounds();
+    EXPECT_TRUE(bounds.is_valid());
+    EXPECT_TRUE(bounds.crosses_180()) << reference << " " << transform[0];
+    EXPECT_GT(bounds.west_deg, 179.99);
+    EXPECT_LT(bounds.east_deg, -179.99);
+  }
+}
+
+TEST(Orthoimage, AboutAPoleItsBoundsHaveAllLongitudes) {
+  const TempFolder folder;
+  const Result<Orthoimage> image =
+      Orthoimage::open({placed(folder, "EPSG:3031", {-15, 0.2, 0, 12, 0, -0.2}), "", {}}, 0.2);
+  ASSERT_TRUE(image.ok()) << image.error().line();
+  EXPECT_LT(image->size().width, 400);
+  const Bounds bounds = image->bounds();
+  EXPECT_EQ(bounds.west_deg, -180);
+  EXPECT_EQ(bounds.east_deg, 180);
+  EXPECT_EQ(bounds.south_deg, -90);
+  EXPECT_LT(bounds.north_deg, -89.999);
+}
+
+TEST(Orthoimage, GeoreferencesThatLeadNowhereAreRefused) {
+  const TempFolder folder;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [reference, transform] :
+       std::vector<std::pair<std::string, std::array<double, 6>>>{
+           {"EPSG:3857", {1e9, 1, 0, 5e6, 0, -1}},
+           {"EPSG:32633", {5e5, 0.2, 0.2, 5e6, 0.2, 0.2}},  // singular
+           {"EPSG:32633", {5e5, 1e-9, 0, 5e6, 0, -1e-9}},
+           {"EPSG:32633", {nan, 0.2, 0, 5e6, 0, -0.2}},
+           {"EPSG:32633", {5e5, nan, 0, 5e6, 0, -0.2}},
+           {"EPSG:32633", {1e300, 0.2, 0, 5e6, 0, -0.2}},
+           {"EPSG:4326", {8, 2e-6, 0, 90.00001, 0, -2e-6}},
+           {"EPSG:4326", {359.9999, 2e-6, 0, 49, 0, -2e-6}}}) {
+    EXPECT_THAT(refusal(placed(folder, reference, transform)),
+                AnyOf(HasSubstr("place on the Earth"), HasSubstr("no georeference")))
+        << reference << " " << transform[0];
+  }
+}
+
+TEST(Orthoimage, ATurnedOneIsAsLargeAsItsCornersAsk) {
+  const TempFolder folder;
+  const double side = 0.2 * std::sqrt(0.5);
+  const Result<Orthoimage> image = Orthoimage::open(
+      {placed(folder, "EPSG:32633", {5e5, side, side, 5e6, side, -side}), "", {}}, 0.2);
+  ASSERT_TRUE(image.ok()) << image.error().line();
+  EXPECT_NEAR(image->size().width, kSide * std::sqrt(2.0), 4);
+  EXPECT_NEAR(image->size().height, kSide * std::sqrt(2.0), 4);
+}
+
+TEST(Orthoimage, FarFinerPixelsThanAskedForAreRefused) {
+  const TempFolder folder;
+  const auto file = placed(folder, "EPSG:32633", {5e5, 0.004, 0, 5e6, 0, -0.004});
+  EXPECT_TRUE(Orthoimage::open({file, "", {}}, 0.1).ok());
+  EXPECT_THAT(Orthoimage::open({file, "", {}}, 0.2).error().line(), HasSubstr("40 times as fine"));
+}
+
+// The file itself is small: it holds no pixels.
+TEST(Orthoimage, AFileOfHugeTilesIsRefused) {
+  const TempFolder folder;
+  GDALAllRegister();
+  for (const int side : {20000, 256}) {
+    const std::string across = "BLOCKXSIZE=" + std::to_string(side);
+    const std::string down = "BLOCKYSIZE=" + std::to_string(side);
+    CPLStringList options;
+    for (const std::string& word : {std::string("TILED=YES"), across, down,
+                                    std::string("SPARSE_OK=TRUE"), std::string("COMPRESS=LZW")}) {
+      options.AddString(word.c_str());
+    }
+    const std::filesystem::path file = folder / (std::to_string(side) + ".tif");
+    {
+      const std::unique_ptr<GDALDataset> dataset(
+          GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file.c_str(), 20000, 20000, 1,
+                                                                   GDT_Byte, options.List()));
+      ASSERT_NE(dataset, nullptr);
+      std::array<double, 6> transform{5e5, 0.1, 0, 5e6, 0, -0.1};
+      OGRSpatialReference reference;
+      ASSERT_EQ(reference.importFromEPSG(32633), OGRERR_NONE);
+      ASSERT_EQ(dataset->SetGeoTransform(transform.data()), CE_None);
+      ASSERT_EQ(dataset->SetSpatialRef(&reference), CE_None);
+    }
+    if (side == 256) {
+      EXPECT_EQ(refusal(file), "");
+    } else {
+      EXPECT_THAT(refusal(file), HasSubstr("blocks of 20000 x 20000"));
+    }
+  }
+}
+
+// Colours of which the fourth band, tagged as transparency, has these values.
+std::filesystem::path with_alpha(const TempFolder& folder,
+                                 const std::function<int(int x, int y)>& alpha) {
+  const std::filesystem::path file = folder / "alpha.tif";
+  write_image(file, {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand},
+              [&](int band, int x, int y) { return band == 3 ? alpha(x, y) : 50 + 60 * band; });
+  return file;
+}
+
+int distrusted(const std::filesystem::path& file) {
+  const Result<Orthoimage> image = Orthoimage::open({file, "", {}}, 0.2);
+  EXPECT_TRUE(image.ok());
+  return image->bands().distrusted_alpha;
+}
+
+TEST(Orthoimage, MasksAreTrustedAndDataTaggedAsMasksAreNot) {
+  const TempFolder folder;
+  const auto infrared = [](int x, int y) { return 40 + (7 * x + 11 * y) % 170; };
+  EXPECT_EQ(distrusted(with_alpha(folder, infrared)), 4);
+  // In a frame without data, as turned images have.
+  EXPECT_EQ(distrusted(with_alpha(
+                folder, [&](int x, int y) { return std::abs(x - y) < 60 ? infrared(x, y) : 0; })),
+            4);
+  EXPECT_EQ(distrusted(with_alpha(folder, [](int, int) { return 255; })), 0);
+  EXPECT_EQ(distrusted(with_alpha(folder, [](int, int) { return 0; })), 0);
+  EXPECT_EQ(distrusted(with_alpha(folder, [](int x, int) { return x < 90 ? 255 : 0; })), 0);
+  const auto feathered = [](int x, int y) {
+    const int to_edge = std::min({x, y, kSide - 1 - x, kSide - 1 - y});
+    return std::min(255, 12 * to_edge);
+  };
+  const auto file = with_alpha(folder, feathered);
+  EXPECT_EQ(distrusted(file), 0);
+  const cv::Mat covered = read_all(file, 0.2).covered;
+  EXPECT_EQ(covered.at<std::uint8_t>(100, 4), 0);
+  EXPECT_EQ(covered.at<std::uint8_t>(100, 100), 255);
+}
+
+TEST(Orthoimage, DistrustedTransparencyHidesNothing) {
+  const TempFolder folder;
+  const auto file = with_alpha(folder, [](int x, int y) { return 20 + (7 * x + 11 * y) % 80; });
+  const Picture picture = read_all(file, 0.2);
+  EXPECT_EQ(picture.covered.at<std::uint8_t>(100, 100), 255);
+  EXPECT_EQ(middle_of(picture), cv::Vec3b(170, 110, 50));
+}
+
+Picture read_bands(const std::filesystem::path& file, const std::vector<int>& bands) {
+  const Result<Orthoimage> image = Orthoimage::open({file, "", bands}, 0.2);
+  EXPECT_TRUE(image.ok()) << image.error().line();
+  return *image->read(cv::Rect({0, 0}, image->size()));
+}
+
+TEST(Orthoimage, BandsCanBeChosen) {
+  const TempFolder folder;
+  const auto file = with_alpha(folder, [](int x, int) { return x < kSide / 2 ? 255 : 0; });
+  EXPECT_EQ(middle_of(read_bands(file, {3, 2, 1})), cv::Vec3b(50, 110, 170));
+  EXPECT_EQ(middle_of(read_bands(file, {2})), cv::Vec3b(110, 110, 110));
+  for (const auto& bands : {std::vector<int>{1, 2, 3}, {2}, {1, 2, 4}}) {
+    const cv::Mat covered = read_bands(file, bands).covered;
+    EXPECT_EQ(covered.at<std::uint8_t>(100, 50), 255);
+    EXPECT_EQ(covered.at<std::uint8_t>(100, 150), 255);
+  }
+  for (const auto& bands : {std::vector<int>{1, 2, 3, 4}, {1, 4}}) {
+    const cv::Mat covered = read_bands(file, bands).covered;
+    EXPECT_EQ(covered.at<std::uint8_t>(100, 50), 255);
+    EXPECT_EQ(covered.at<std::uint8_t>(100, 150), 0);
+  }
+  // A mask that the image does not call so.
+  write_image(folder / "five.tif", {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_Undefined},
+              [](int band, int x, int) { return band < 3        ? 90
+                                                : x < kSide / 2 ? 0
+                                                                : 255; });
+  EXPECT_EQ(read_bands(folder / "five.tif", {1, 2, 3, 4}).covered.at<std::uint8_t>(100, 50), 0);
+  EXPECT_EQ(read_bands(folder / "five.tif", {1, 2, 3}).covered.at<std::uint8_t>(100, 50), 255);
+}
+
+TEST(Orthoimage, BandsThatAreNotThereAreRefused) {
+  const TempFolder folder;
+  const auto file = with_alpha(folder, [](int, int) { return 255; });
+  const auto refused = [&](const std::vector<int>& bands) {
+    const Result<Orthoimage> image = Orthoimage::open({file, "", bands}, 0.2);
+    return image.ok() ? "" : image.error().line();
+  };
+  EXPECT_THAT(refused({1, 2, 7}), AllOf(HasSubstr("alpha.tif"), HasSubstr("no band 7, but 4")));
+  EXPECT_THAT(refused({1, 9}), HasSubstr("no band 9"));
+  EXPECT_THAT(refused({0, 1, 2}), HasSubstr("from 1"));
+  EXPECT_THAT(refused({-1}), HasSubstr("from 1"));
+  EXPECT_THAT(refused({1, 1, 2}), HasSubstr("twice"));
+  EXPECT_THAT(refused({1, 2, 3, 4, 5}), HasSubstr("one to four"));
+}
+
+// A mask beside the bands, as GeoTIFFs may have it, counts however bands are chosen.
+TEST(Orthoimage, TheFilesOwnMaskCounts) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder / "a.tif";
+  write_image(file, kRgb, [](int, int, int) { return 90; });
+  {
+    const std::unique_ptr<GDALDataset> dataset(
+        GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+    ASSERT_EQ(dataset->CreateMaskBand(GMF_PER_DATASET), CE_None);
+    std::vector<std::uint8_t> row(kSide, 255);
+    std::fill_n(row.begin(), kSide / 2, std::uint8_t{0});
+    for (int y = 0; y < kSide; ++y) {
+      ASSERT_EQ(dataset->GetRasterBand(1)->GetMaskBand()->RasterIO(
+                    GF_Write, 0, y, kSide, 1, row.data(), kSide, 1, GDT_Byte, 0, 0),
+                CE_None);
+    }
+  }
+  for (const auto& bands : {std::vector<int>{}, {1, 2, 3}, {2}}) {
+    const cv::Mat covered = read_bands(file, bands).covered;
+    EXPECT_EQ(covered.at<std::uint8_t>(100, 50), 0);
+    EXPECT_EQ(covered.at<std::uint8_t>(100, 150), 255);
+  }
+}
+
 TEST(Orthoimage, DamageIsTold) {
   const TempFolder folder;
   write_image(folder / "a.tif", kRgb, [](int, int x, int y) { return (x * y) % 256; });
   std::filesystem::resize_file(folder / "a.tif", 60000);
-  const Result<Orthoimage> image = Orthoimage::open(folder / "a.tif", "", 0.1);
+  const Result<Orthoimage> image = Orthoimage::open({folder / "a.tif", "", {}}, 0.1);
   if (!image.ok()) return;  // the directory of the file may be what is missing
   const Result<Picture> picture = image->read(cv::Rect({0, 0}, image->size()));
   ASSERT_FALSE(picture.ok());

@@ -106,6 +106,32 @@ TEST(WallLayer, ACellHoldsSoManyWallsAndNoMore) {
   EXPECT_TRUE(write_wall_layer(folder / "town.map", walls, kParameters).ok());
 }
 
+TEST(WallLayer, WhatOurReadersRefuseIsCutOrLeftOut) {
+  const TempFolder folder;
+  const auto report = write_wall_layer(folder / "island.map",
+                                       {{{-16.5, 179.9999}, {-16.5, -179.9999}, 0.4},
+                                        {{-89.999, 20}, {-89.999, 21}, 0.4},
+                                        {{49, 8.4}, {49, 8.4}, 0.4},
+                                        {{49, 8.4}, {49.000000001, 8.4}, 0.4}},
+                                       kParameters);
+  ASSERT_TRUE(report.ok()) << report.error().line();
+  const Result<MapReader> map = MapReader::open(folder / "island.map");
+  ASSERT_TRUE(map.ok());
+  EXPECT_TRUE(map->verify().ok());
+  const std::vector<Wall> walls = walls_in(*map);
+  EXPECT_EQ(report->walls, walls.size());
+  EXPECT_GT(walls.size(), 12U);
+  EXPECT_NEAR(report->length_m, 21.34 + 1.95, 0.1);
+  for (const Wall& wall : walls) EXPECT_NE(wall.begin, wall.end);
+}
+
+TEST(WallLayer, AWallThatIsNowhereIsRefused) {
+  const TempFolder folder;
+  EXPECT_FALSE(
+      write_wall_layer(folder / "town.map", {{{49, 8.4}, {91, 8.4}, 0.4}}, kParameters).ok());
+  EXPECT_FALSE(std::filesystem::exists(folder / "town.map"));
+}
+
 TEST(WallLayer, WhatIsNoMapStaysAsItIs) {
   const TempFolder folder;
   ASSERT_TRUE(write_text_file(folder / "town.map", "not a map").ok());

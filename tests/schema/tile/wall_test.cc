@@ -135,6 +135,11 @@ TEST(Walls, LieWholeInEveryCellThatTheyMeet) {
   for (int i = 1; i < 4; ++i) EXPECT_THAT(tiles[i].walls, ElementsAre(quantized(across)));
 }
 
+TEST(Walls, WithoutLengthAreInNoTile) {
+  const Wall shorter_than_a_step{{49.001, 8.401}, {49.001000001, 8.401000001}, 0.25};
+  EXPECT_TRUE(tiles_of({wall(1, 1, 1, 1), shorter_than_a_step}).empty());
+}
+
 TEST(Walls, ComeOutOfTheirTilesOnceEach) {
   const std::vector<Wall> walls = {wall(4.98765432, 4.9, 5.1, 5.1), wall(0.3, 0.1, 7.2, 0.4)};
   std::vector<WallTile> decoded;

@@ -1,0 +1,42 @@
+// From rings of positions to walls.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schema/tile/wall.h"
+
+namespace milepost {
+
+enum class RingKind { outer, inner };
+
+// Collects the walls of rings; the building is on the right of each.
+class RingWalls {
+ public:
+  // Positions with latitudes in [-90, 90] and longitudes in [-360, 360], in either direction; the
+  // last is the first again, and the shorter way leads from each to the next. A ring may go around
+  // a pole. What is wrong with it, if something is: then none of its walls is added.
+  // REQUIRES: the ring is not empty.
+  std::optional<std::string> add(std::vector<WallEnd> ring, RingKind kind);
+
+  // All walls, without those along longitude 180 that have a building on either side.
+  std::vector<Wall> finish() &&;
+
+ private:
+  // Walls along longitude 180 between the same latitudes, in steps, by their direction.
+  struct CutWalls {
+    std::vector<Wall> northward;
+    std::vector<Wall> southward;
+  };
+
+  void add_wall(const Wall& wall);
+
+  std::vector<Wall> walls_;
+  std::map<std::pair<std::int64_t, std::int64_t>, CutWalls> on_180_;
+};
+
+}  // namespace milepost
