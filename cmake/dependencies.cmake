@@ -2,6 +2,8 @@
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d flann)
+find_package(JPEG REQUIRED)  # the library that decodes frames in OpenCV, asked whether they are whole
+find_package(PNG REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
 find_package(Ceres 2.1 REQUIRED)  # only the mapper links it
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib>=2.1)

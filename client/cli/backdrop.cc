@@ -11,7 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "schema/base/file.h"
-#include "schema/drive/image_bytes.h"
+#include "schema/drive/image_decode.h"
 
 namespace milepost {
 namespace {
@@ -70,23 +70,14 @@ Result<WorldFile> read_world_file(const fs::path& file) {
 }
 
 Result<cv::Mat> read_colour(const fs::path& image) {
-  const Result<std::string> bytes = read_text_file(image);
+  Result<std::string> bytes = read_text_file(image);
   if (!bytes) return bytes.error();
-  if (is_cut_short(as_bytes(*bytes))) {
-    return Error{ErrorCode::invalid_input, image.string(), "the image is cut short",
-                 "copy the image again"};
-  }
-  cv::Mat decoded;
-  try {
-    const std::vector<unsigned char> buffer(bytes->begin(), bytes->end());
-    // The world file is about the pixels as they lie in the file, whatever EXIF says of them.
-    decoded = cv::imdecode(buffer, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {  // for example, more pixels than the decoder allows
-    decoded.release();
-  }
-  if (!decoded.empty()) return decoded;
-  return Error{ErrorCode::invalid_input, image.string(), "the image cannot be decoded",
-               "give a PNG or JPEG"};
+  // The world file is about the pixels as they lie in the file, whatever EXIF says of them.
+  Result<cv::Mat> decoded =
+      decoded_image(std::move(*bytes), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (decoded) return decoded;
+  const Error& error = decoded.error();
+  return Error{error.code, image.string(), "the image " + error.what, error.mend};
 }
 
 cv::Mat scaled_down(const cv::Mat& image) {

@@ -1,6 +1,7 @@
 #include "client/cli/estimates.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "client/cli/cells.h"
 #include "schema/tile/codec.h"
@@ -23,7 +24,19 @@ std::string observation_rows(std::size_t number_of_tracklet, const ObservedTrack
   return rows;
 }
 
+constexpr std::string_view kEstimateColumns =
+    "timestamp_s,filename,along_m,sigma_m,truth_along_m,error_m,scale_px,along_begin_m,"
+    "along_end_m,r_squared\n";
+constexpr std::string_view kRegressionColumns =
+    "tracklet,scale_px,along_m,offset_m,slope,r_squared\n";
+
+bool begins_estimates(std::string_view head) { return head.starts_with(kEstimateColumns); }
+bool begins_regressions(std::string_view head) { return head.starts_with(kRegressionColumns); }
+
 }  // namespace
+
+const OutputKind kEstimatesOutput = {"a table of estimates", begins_estimates, true};
+const OutputKind kRegressionsOutput = {"a table of regressions", begins_regressions, true};
 
 bool has_estimates(const std::vector<EvaluatedFix>& fixes) {
   return std::ranges::any_of(
@@ -31,9 +44,7 @@ bool has_estimates(const std::vector<EvaluatedFix>& fixes) {
 }
 
 std::string estimates_csv(const std::vector<EvaluatedFix>& fixes) {
-  std::string text =
-      "timestamp_s,filename,along_m,sigma_m,truth_along_m,error_m,scale_px,along_begin_m,"
-      "along_end_m,r_squared\n";
+  std::string text(kEstimateColumns);
   for (const EvaluatedFix& evaluated : fixes) {
     if (!evaluated.error_m) continue;
     const FrameFix& frame = evaluated.frame;
@@ -64,7 +75,7 @@ Result<std::optional<std::string>> regressions_csv(MapSource& source, const Fix&
   }
   std::ranges::stable_sort(tracklets, std::greater<>(),
                            [](const ObservedTracklet& observed) { return observed.track.size(); });
-  std::string text = "tracklet,scale_px,along_m,offset_m,slope,r_squared\n";
+  std::string text(kRegressionColumns);
   for (std::size_t i = 0; i < std::min(kRegressions, tracklets.size()); ++i) {
     text += observation_rows(i, tracklets[i]);
   }

@@ -6,8 +6,13 @@
 #include <vector>
 
 #include "client/cli/evaluation.h"
+#include "schema/base/output_file.h"
 
 namespace milepost {
+
+// estimates-METHOD.csv and regressions.csv of evaluate.
+extern const OutputKind kEstimatesOutput;
+extern const OutputKind kRegressionsOutput;
 
 // Whether some frame was followed by tracklets.
 bool has_estimates(const std::vector<EvaluatedFix>& fixes);

@@ -1,12 +1,14 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include "client/cli/commands.h"
 #include "client/cli/estimates.h"
 #include "client/cli/output.h"
 #include "client/cli/replay.h"
 #include "client/cli/report.h"
+#include "client/cli/report_page.h"
 #include "client/cli/source_options.h"
 #include "schema/base/file.h"
 
@@ -83,14 +85,33 @@ Status write_estimates(const std::filesystem::path& out,
   return *regressions ? write_text_file(out / "regressions.csv", **regressions) : ok_status();
 }
 
+// Makes the folder, and makes sure that all files of the evaluation may be written into it.
+Status prepare_outputs(const EvaluateOptions& options, const Drive& drive) {
+  const std::filesystem::path out = options.out;
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (error) {
+    return Error{ErrorCode::io, out.string(), "the folder cannot be made (" + error.message() + ")",
+                 "give another one with --out"};
+  }
+  const auto output = [&](const std::string& name, const OutputKind& kind) {
+    return Output{"--out", out / name, &kind, "folder"};
+  };
+  std::vector<Output> outputs = {output("summary.json", kSummaryOutput),
+                                 output("report.html", kReportOutput)};
+  for (const std::string& method :
+       std::set<std::string>(options.methods.begin(), options.methods.end())) {
+    outputs.push_back(output("fixes-" + method + ".csv", kFixesOutput));
+    if (!options.estimates) continue;
+    outputs.push_back(output("estimates-" + method + ".csv", kEstimatesOutput));
+  }
+  if (options.estimates) outputs.push_back(output("regressions.csv", kRegressionsOutput));
+  return check_outputs(outputs, inputs_of(drive, options.map));
+}
+
 // All files of an evaluation, each whole or not there.
 Status write_evaluation(const std::filesystem::path& out,
                         const std::vector<MethodEvaluation>& methods, const std::string& report) {
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error)
-    return Error{ErrorCode::io, out.string(), "cannot be made (" + error.message() + ")",
-                 "choose another --out"};
   for (const MethodEvaluation& evaluation : methods) {
     const Status written = write_text_file(out / ("fixes-" + evaluation.summary.method + ".csv"),
                                            evaluated_fixes_csv(evaluation.fixes));
@@ -115,6 +136,9 @@ int evaluate(const std::string& program, const EvaluateOptions& options) {
   if (!methods) return fail(program, methods.error());
   const Result<Drive> drive = read_drive(options.drive);
   if (!drive) return fail(program, drive.error());
+  if (const Status prepared = prepare_outputs(options, *drive); !prepared) {
+    return fail(program, prepared.error());
+  }
   const Result<std::shared_ptr<MapSource>> source = open_source(options.map);
   if (!source) return fail(program, source.error());
   catch_stop_signals();
@@ -166,7 +190,8 @@ int run_evaluate(const std::string& program, std::vector<std::string> words) {
   app.add_option("--drive", options.drive, "Folder of the drive to localize")
       ->required()
       ->option_text("DIR");
-  app.add_option("--out", options.out, "Folder to write to; made if need be")
+  app.add_option("--out", options.out,
+                 "Folder to write to; made if need be, and files of an old evaluation replaced")
       ->required()
       ->option_text("DIR");
   app.add_option("--method", options.methods, "Methods to compare: " + known)

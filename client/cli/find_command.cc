@@ -7,6 +7,7 @@
 #include "client/cli/find_errors.h"
 #include "client/cli/find_report.h"
 #include "client/cli/output.h"
+#include "client/cli/report_page.h"
 #include "client/cli/source_options.h"
 #include "client/fetch/walls.h"
 #include "schema/base/file.h"
@@ -156,6 +157,21 @@ FinderSettings finder_settings(const Options& options, bool has_heading) {
   return settings;
 }
 
+std::vector<Output> outputs_of(const Options& options) {
+  std::vector<Output> outputs = {{"--out", options.out, &kFixesOutput}};
+  if (!options.localized_out.empty()) {
+    outputs.push_back({"--localize-out", options.localized_out, &kFixesOutput});
+  }
+  if (!options.report.empty()) outputs.push_back({"--report", options.report, &kReportOutput});
+  return outputs;
+}
+
+std::vector<std::filesystem::path> inputs_of(const Drive& drive, const Options& options) {
+  std::vector<std::filesystem::path> inputs = inputs_of(drive, options.source);
+  if (!options.backdrop.empty()) inputs.emplace_back(options.backdrop);
+  return inputs;
+}
+
 std::string found_csv(const std::vector<FoundFrame>& frames) {
   std::string text =
       "timestamp_s,filename,status,latitude_deg,longitude_deg,heading_deg,sigma_m,latency_ms,"
@@ -189,7 +205,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--drive", options.drive, "Folder of the drive; it has an odometry.csv")
       ->required()
       ->option_text("DIR");
-  app.add_option("--out", options.out, "File to write the fixes to")
+  app.add_option("--out", options.out, "File to write the fixes to; old fixes are replaced")
       ->required()
       ->option_text("FILE");
   app.add_option("--map-name", options.map_name, "Which map, where several have walls")
@@ -263,6 +279,9 @@ int run_find(const std::string& program, std::vector<std::string> words) {
 
   const Result<Drive> drive = read_drive(options.drive);
   if (!drive) return fail(program, drive.error());
+  if (const Status free = check_outputs(outputs_of(options), inputs_of(*drive, options)); !free) {
+    return fail(program, free.error());
+  }
   const Result<std::shared_ptr<MapSource>> source = open_source(options.source);
   if (!source) return fail(program, source.error());
   const Result<MapDescription> map = map_to_search(**source, options);
@@ -304,7 +323,7 @@ int run_find(const std::string& program, std::vector<std::string> words) {
     written = write_text_file(options.report, find_report_html(input));
   }
   if (!written.ok()) return fail(program, written.error());
-  std::cout << summary_line(found->frames, options.out) << "\n";
+  report_stream(options.out) << summary_line(found->frames, options.out) << "\n";
   return kExitDone;
 }
 

@@ -60,10 +60,11 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
   if (run.localizer_source) successor.emplace(run.localizer_source, drive.camera);
 
   FoundDrive found;
+  const FrameReader frames(drive);
   SensorLog sensors(drive);
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     const Frame& frame = drive.frames[i];
-    const Result<cv::Mat> gray = read_frame_gray(drive, i);
+    const Result<cv::Mat> gray = frames.gray(i);
     if (!gray) return gray.error();
     for (const Odometry& wheels : sensors.odometry_until(frame.timestamp_s)) {
       finder.observe(wheels);

@@ -36,7 +36,7 @@ struct FindRun {
 };
 
 // Recorded positions of frames and the receiver's are never looked at. Errors: those of
-// read_frame_gray; invalid_input for a drive without odometry.csv.
+// FrameReader::gray; invalid_input for a drive without odometry.csv.
 Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls,
                               const FindRun& run);
 

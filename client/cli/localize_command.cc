@@ -43,7 +43,9 @@ int run_localize(const std::string& program, std::vector<std::string> words) {
   app.add_option("--drive", folder, "Folder of the drive to localize")
       ->required()
       ->option_text("DIR");
-  app.add_option("--out", out, "File to write the fixes to")->required()->option_text("FILE");
+  app.add_option("--out", out, "File to write the fixes to; old fixes are replaced")
+      ->required()
+      ->option_text("FILE");
   app.add_option("--method", method_name, "How to localize (default " + method_name + ")")
       ->option_text("M");
   if (const auto code = parse_words(app, std::move(words))) return *code;
@@ -57,6 +59,10 @@ int run_localize(const std::string& program, std::vector<std::string> words) {
   if (!method) return fail(program, method.error());
   const Result<Drive> drive = read_drive(folder);
   if (!drive) return fail(program, drive.error());
+  if (const Status free = check_outputs({{"--out", out, &kFixesOutput}}, inputs_of(*drive, map));
+      !free) {
+    return fail(program, free.error());
+  }
   const Result<std::shared_ptr<MapSource>> source = open_source(map);
   if (!source) return fail(program, source.error());
   catch_stop_signals();
@@ -71,7 +77,7 @@ int run_localize(const std::string& program, std::vector<std::string> words) {
   if (!replay) return fail(program, replay.error());
   const Status written = write_text_file(out, fixes_csv(replay->fixes.front()));
   if (!written.ok()) return fail(program, written.error());
-  std::cout << summary_line(replay->fixes.front(), out) << "\n";
+  report_stream(out) << summary_line(replay->fixes.front(), out) << "\n";
   return replay->outage ? fail(program, *replay->outage) : kExitDone;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -41,7 +42,16 @@ std::string cell(double value, int digits) {
   return std::isfinite(value) ? number(value, digits) : "-";
 }
 
+bool begins_fixes(std::string_view head) {
+  return head.starts_with("timestamp_s,filename,status,");
+}
+
+bool begins_summary(std::string_view head) { return begins_without_space(head, R"([{"method":)"); }
+
 }  // namespace
+
+const OutputKind kFixesOutput = {"a table of fixes", begins_fixes, true};
+const OutputKind kSummaryOutput = {"a summary of an evaluation", begins_summary, true};
 
 std::string fixes_csv(const std::vector<FrameFix>& fixes) {
   std::string text = std::string(kFixColumns) + "," + kPoseColumns + "\n";

@@ -5,8 +5,14 @@
 #include <vector>
 
 #include "client/cli/evaluation.h"
+#include "schema/base/output_file.h"
 
 namespace milepost {
+
+// Files with a row a frame that begins with timestamp_s, filename, status: fixes of any command.
+extern const OutputKind kFixesOutput;
+// summary.json of evaluate.
+extern const OutputKind kSummaryOutput;
 
 // fixes.csv of localize: one row a frame. Cells that are not known are empty.
 std::string fixes_csv(const std::vector<FrameFix>& fixes);

@@ -149,10 +149,11 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
   Replay replay;
   replay.fixes.resize(methods.size());
   FrameContent content;
+  const FrameReader frames(drive);
   SensorLog sensors(drive);
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     const Frame& frame = drive.frames[i];
-    Result<cv::Mat> gray = read_frame_gray(drive, i);
+    Result<cv::Mat> gray = frames.gray(i);
     if (!gray) return gray.error();
     content.set_frame(std::move(*gray));
     tell(sensors, frame.timestamp_s, runners);

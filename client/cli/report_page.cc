@@ -1,5 +1,7 @@
 #include "client/cli/report_page.h"
 
+#include <string_view>
+
 #include "client/cli/plot/chart.h"
 #include "client/cli/plot/text.h"
 #include "client/cli/report_style.h"
@@ -9,6 +11,9 @@ namespace {
 
 using plot::escaped;
 
+// In the title, between what the page is about and its kind.
+constexpr const char* kMark = " \u2013 milepost ";
+
 // The policy lets nothing run and nothing be loaded, whatever the names in the report say; pictures
 // are part of the page.
 std::string document_head(const PageHead& head) {
@@ -16,7 +21,7 @@ std::string document_head(const PageHead& head) {
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
          "'unsafe-inline'; img-src data:\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-         escaped(head.title) + " \u2013 milepost " + escaped(head.kind) + "</title>\n<style>" +
+         escaped(head.title) + kMark + escaped(head.kind) + "</title>\n<style>" +
          std::string(report_style()) + "</style>\n</head>\n";
 }
 
@@ -44,7 +49,13 @@ std::string frames_fact(const Drive& drive) {
   return text;
 }
 
+bool begins_report(std::string_view head) {
+  return head.starts_with("<!DOCTYPE html>") && head.find(kMark) != std::string_view::npos;
+}
+
 }  // namespace
+
+const OutputKind kReportOutput = {"a report of milepost", begins_report, true};
 
 std::string html_of(const Figure& figure) {
   const std::string nothing =

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "schema/base/output_file.h"
 #include "schema/drive/drive.h"
 
 namespace milepost {
@@ -31,6 +32,9 @@ struct PageHead {
   std::string lead;   // the result in a sentence or two
   Facts facts;
 };
+
+// A page of any kind, also of an older version.
+extern const OutputKind kReportOutput;
 
 // The whole document, UTF-8; all of `head` is plain text but the names of facts, `content` is HTML.
 std::string page(const PageHead& head, const std::string& content);

@@ -25,6 +25,12 @@ void add_source_options(CLI::App& app, SourceOptions& options) {
   limit->needs(server);
 }
 
+std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOptions& options) {
+  std::vector<std::filesystem::path> inputs = files_of(drive);
+  if (!options.map.empty()) inputs.emplace_back(options.map);
+  return inputs;
+}
+
 Result<std::shared_ptr<MapSource>> open_source(const SourceOptions& options) {
   Result<std::unique_ptr<MapSource>> source = [&] {
     if (!options.map.empty()) return open_file_source(options.map);

@@ -1,11 +1,14 @@
 // Where a command gets its map from: --server URL --cache DIR, or --map FILE.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "client/fetch/map_source.h"
 #include "schema/command/command.h"
+#include "schema/drive/drive.h"
 
 namespace milepost {
 
@@ -20,6 +23,9 @@ struct SourceOptions {
 
 // Adds the options, and that either a server with its cache or a map file is required.
 void add_source_options(CLI::App& app, SourceOptions& options);
+
+// The files that a command reads which replays a drive on a map.
+std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOptions& options);
 
 // Errors: those of open_http_source and open_file_source.
 Result<std::shared_ptr<MapSource>> open_source(const SourceOptions& options);

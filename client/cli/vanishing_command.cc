@@ -1,14 +1,18 @@
-#include <iostream>
+#include <filesystem>
 #include <map>
+#include <ostream>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
 #include "client/cli/commands.h"
 #include "client/vanishing/vanishing_directions.h"
 #include "schema/base/file.h"
+#include "schema/base/output_file.h"
 #include "schema/command/command.h"
 #include "schema/drive/description.h"
 #include "schema/drive/frame_image.h"
+#include "schema/drive/grey_depth.h"
 #include "schema/drive/pinhole.h"
 
 namespace milepost {
@@ -18,6 +22,13 @@ using Json = nlohmann::ordered_json;
 
 const std::map<std::string, VanishingMethod> kMethods = {
     {"clustering", VanishingMethod::clustering}, {"evidence", VanishingMethod::evidence}};
+
+bool begins_directions(std::string_view head) {
+  return begins_without_space(head, R"([{"image":)");
+}
+
+constexpr OutputKind kDirectionsOutput = {"a list of vanishing directions", begins_directions,
+                                          true};
 
 Json json_of(const VanishingDirection& found) {
   const Eigen::Vector3d& direction = found.direction;
@@ -46,13 +57,14 @@ Result<Json> found_in_all(const std::vector<std::string>& images, const Camera& 
                           const VanishingSettings& settings) {
   ProgressLine progress;
   Json entries = Json::array();
+  const int grey_bits = grey_bits_of({images.begin(), images.end()});
   for (const std::string& image : images) {
     if (stop_requested()) {
       return Error{ErrorCode::cancelled, image, "stopped before this image", "start again"};
     }
     progress.show("image " + std::to_string(entries.size() + 1) + " of " +
                   std::to_string(images.size()));
-    const Result<cv::Mat> gray = read_image_gray(image, camera);
+    const Result<cv::Mat> gray = read_image_gray(image, camera, grey_bits);
     if (!gray) return gray.error();
     entries.push_back(json_of(image, vanishing_directions(*gray, pinhole_of(camera), settings)));
   }
@@ -99,7 +111,9 @@ int run_vanishing(const std::string& program, std::vector<std::string> words) {
   app.add_option("--camera", camera_file, "A drive.json, of which the camera is read")
       ->required()
       ->option_text("FILE");
-  app.add_option("--out", out, "File to write the directions to")->required()->option_text("FILE");
+  app.add_option("--out", out, "File to write the directions to; an old one is replaced")
+      ->required()
+      ->option_text("FILE");
   app.add_option("--method", method, "How to find them (default " + method + ")")
       ->check(CLI::IsMember(kMethods))
       ->option_text("M");
@@ -111,6 +125,11 @@ int run_vanishing(const std::string& program, std::vector<std::string> words) {
 
   const Result<Camera> camera = read_camera(camera_file);
   if (!camera) return fail(program, camera.error());
+  std::vector<std::filesystem::path> inputs(images.begin(), images.end());
+  inputs.emplace_back(camera_file);
+  if (const Status free = check_outputs({{"--out", out, &kDirectionsOutput}}, inputs); !free) {
+    return fail(program, free.error());
+  }
   catch_stop_signals();
   const Result<Json> entries = found_in_all(images, *camera, settings);
   if (!entries) return fail(program, entries.error());
@@ -118,7 +137,7 @@ int run_vanishing(const std::string& program, std::vector<std::string> words) {
   if (!text) return fail(program, text.error());
   const Status written = write_text_file(out, *text);
   if (!written.ok()) return fail(program, written.error());
-  std::cout << out << ": " << images.size() << " images\n";
+  report_stream(out) << out << ": " << images.size() << " images\n";
   return kExitDone;
 }
 

@@ -1,5 +1,6 @@
 #include "mapper/build/build_map.h"
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -35,6 +36,7 @@ class SegmentBuilder {
     }
   }
 
+  // Counts what it finds in the last of the report's drives.
   Status run(int jobs, MapWriter& map, BuildReport& report, BuildProgress& progress,
              const OnProgress& on_progress) {
     FramePipeline frames(drive_, plan_.frame_indices, settings_.feature, settings_.lab, jobs);
@@ -43,6 +45,7 @@ class SegmentBuilder {
       const Frame& recorded = drive_.frames[plan_.frame_indices[i]];
       const Result<ExtractedFrame> frame = frames.next();
       if (!frame) return frame.error();
+      count(*frame, report.drives.back());
       for (const NamedBuilder& layer : layers_) layer.builder->add_frame(recorded, *frame, along_m);
       const std::vector<Track> ended = follower_.add(frame->features, along_m);
       const Status written = add_and_write(ended, follower_.oldest_open_along_m(), map, report);
@@ -57,6 +60,13 @@ class SegmentBuilder {
   }
 
  private:
+  static void count(const ExtractedFrame& frame, DriveReport& found) {
+    ++found.frames;
+    found.features += frame.features.descriptors.size();
+    found.darkest = std::min(found.darkest, frame.darkest);
+    found.brightest = std::max(found.brightest, frame.brightest);
+  }
+
   Status add_and_write(const std::vector<Track>& ended, double complete_until_m, MapWriter& map,
                        BuildReport& report) {
     for (const NamedBuilder& layer : layers_) {
@@ -70,6 +80,7 @@ class SegmentBuilder {
         ++report.tiles;
         if (layer.layer != "tracklets") continue;
         report.tracklets += tile.items;
+        report.drives.back().tracklets += tile.items;
         report.tracklet_bytes += tile.frame.size();
       }
     }
@@ -106,6 +117,15 @@ Status check_cameras_agree(const std::vector<Drive>& drives) {
 
 }  // namespace
 
+Error nothing_found(const DriveReport& drive) {
+  return {ErrorCode::invalid_input, drive.folder,
+          "there is nothing to localize by in its " + std::to_string(drive.frames) +
+              " frames: features " + std::to_string(drive.features) + ", grey values " +
+              std::to_string(drive.darkest) + " to " + std::to_string(drive.brightest) +
+              " of 0 to 255, tracklets 0",
+          "check its frames and their order, leave the drive out, or give --allow-empty"};
+}
+
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
                               int jobs, const OnProgress& on_progress) {
@@ -133,10 +153,14 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   }
   BuildReport report;
   for (std::size_t i = 0; i < plans.size() && status.ok(); ++i) {
+    report.drives.push_back({.folder = drives[i].folder.string()});
     status = map->add_segment(stored_segment(plans[i]));
     if (status.ok()) {
       status = SegmentBuilder(drives[i], plans[i], *codebook, settings)
                    .run(jobs, *map, report, progress, on_progress);
+    }
+    if (status.ok() && report.drives.back().tracklets == 0 && !settings.allow_empty) {
+      status = nothing_found(report.drives.back());
     }
     report.length_m += plans[i].line.length_m();
   }
@@ -144,7 +168,6 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   Result<std::string> build = map->finish();
   if (!build) return build.error();
   report.build = *build;
-  report.segments = plans.size();
   report.frames = progress.frames_done;
   return report;
 }

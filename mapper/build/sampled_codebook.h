@@ -9,7 +9,7 @@
 
 namespace milepost {
 
-// Errors: those of read_frame_gray.
+// Errors: those of FrameReader::gray.
 Result<Codebook> sampled_codebook(const std::vector<Drive>& drives,
                                   const std::vector<SegmentPlan>& plans,
                                   const BuildSettings& settings, int jobs);

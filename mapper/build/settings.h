@@ -1,4 +1,4 @@
-// Everything that decides the bytes of a map, beside the drives.
+// Everything that decides what map is made, beside the drives.
 #pragma once
 
 #include "mapper/follow/feature_follower.h"
@@ -23,6 +23,7 @@ struct BuildSettings {
   double tile_length_m = 20;
   double min_frame_spacing_m = 0.3;  // frames nearer to the last one used are passed over
   bool lab = false;                  // layers for the other methods too
+  bool allow_empty = false;          // a drive without any tracklet is no error
 };
 
 }  // namespace milepost

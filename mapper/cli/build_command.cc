@@ -1,6 +1,7 @@
 #include "mapper/cli/build_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -9,7 +10,9 @@
 #include <opencv2/core/utility.hpp>
 
 #include "mapper/build/build_map.h"
+#include "schema/base/output_file.h"
 #include "schema/command/command.h"
+#include "schema/store/map_output.h"
 
 namespace milepost {
 namespace {
@@ -27,13 +30,16 @@ void add_options(CLI::App& app, BuildOptions& options) {
   app.add_option("--drive", options.drives, "Folder of a recorded drive; may be repeated")
       ->required()
       ->option_text("DIR");
-  app.add_option("--map", options.map, "Map file to write; an old one is replaced when all is done")
+  app.add_option("--map", options.map,
+                 "Map file to write; an old map is replaced when all is done, any other file never")
       ->required()
       ->option_text("FILE");
   add_number(app, "--jobs", options.jobs, "N",
              "Threads that extract features; the map is the same for any number", 1, 256);
   app.add_flag("--lab", options.settings.lab,
                "Add the layers that the methods to compare with need");
+  app.add_flag("--allow-empty", options.settings.allow_empty,
+               "Write the map even if nothing was found for it");
 
   BuildSettings& settings = options.settings;
   const auto setting = [&app](const std::string& name, auto& value, const std::string& unit,
@@ -63,10 +69,19 @@ void add_options(CLI::App& app, BuildOptions& options) {
           "Frames nearer to the last one are passed over", 0.01, 100);
 }
 
+Status check_map_is_free(const std::vector<Drive>& drives, const std::string& map) {
+  std::vector<std::filesystem::path> inputs;
+  for (const Drive& drive : drives) {
+    const std::vector<std::filesystem::path> files = files_of(drive);
+    inputs.insert(inputs.end(), files.begin(), files.end());
+  }
+  return check_outputs({{"--map", map, &kMapOutput}}, inputs);
+}
+
 std::string summary_line(const BuildReport& report, const std::string& map) {
   std::ostringstream line;
   line << std::fixed << std::setprecision(1) << map << ": build " << report.build << ", "
-       << report.segments << (report.segments == 1 ? " segment of " : " segments of ")
+       << report.drives.size() << (report.drives.size() == 1 ? " segment of " : " segments of ")
        << report.length_m << " m, " << report.frames << " frames, " << report.tracklets
        << " tracklets (" << static_cast<double>(report.tracklets) / report.length_m
        << " a metre) in " << report.tiles << " tiles, " << std::setprecision(2)
@@ -81,7 +96,9 @@ int run_build(const std::string& program, std::vector<std::string> words) {
       "Makes a map from recorded drives.\n\n"
       "Each drive becomes a segment of tracklets: SIFT features followed over consecutive frames.\n"
       "For the default method each is placed as a landmark, and those that say the most are kept;\n"
-      "with --lab there is a layer for each method to compare with, too.\n"
+      "with --lab there is a layer for each method to compare with, too. A drive in which nothing "
+      "is\n"
+      "found ends the build, and an old map stays.\n"
       "Example: milepost-mapper build --drive drives/monday --map maps/town.map",
       program);
   BuildOptions options;
@@ -93,6 +110,9 @@ int run_build(const std::string& program, std::vector<std::string> words) {
     Result<Drive> drive = read_drive(folder);
     if (!drive) return fail(program, drive.error());
     drives.push_back(std::move(*drive));
+  }
+  if (const Status free = check_map_is_free(drives, options.map); !free) {
+    return fail(program, free.error());
   }
   catch_stop_signals();
   cv::setNumThreads(1);  // one frame a thread uses the cores better than many threads a frame
@@ -106,6 +126,9 @@ int run_build(const std::string& program, std::vector<std::string> words) {
                      });
   }();
   if (!report) return fail(program, report.error());
+  for (const DriveReport& drive : report->drives) {
+    if (drive.tracklets == 0) warn(program, nothing_found(drive));
+  }
   std::cout << summary_line(*report, options.map) << "\n";
   return kExitDone;
 }

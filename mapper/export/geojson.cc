@@ -1,5 +1,6 @@
 #include "mapper/export/geojson.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -10,15 +11,52 @@ namespace milepost {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Position = std::vector<double>;  // longitude, latitude and perhaps altitude
+using Positions = std::vector<Position>;
+
+// Where the way from `from` to `to`, the shorter one around the Earth, meets longitude 180: the
+// position as seen from the side of `from`.
+Position at_180(const Position& from, const Position& to) {
+  const double side_deg = std::copysign(180.0, from[0]);
+  const double way_deg = to[0] + 2 * side_deg - from[0];
+  const double part = way_deg == 0 ? 1 : (side_deg - from[0]) / way_deg;
+  Position cut = {side_deg};
+  for (std::size_t i = 1; i < from.size(); ++i) cut.push_back(from[i] + part * (to[i] - from[i]));
+  return cut;
+}
+
+// The parts of a line on either side of longitude 180 (RFC 7946, 3.1.9).
+std::vector<Positions> cut_at_180(const Positions& line) {
+  std::vector<Positions> parts = {{line.front()}};
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (std::abs(line[i][0] - line[i - 1][0]) > 180) {
+      Position cut = at_180(line[i - 1], line[i]);
+      if (cut != line[i - 1]) parts.back().push_back(cut);
+      cut[0] = -cut[0];
+      parts.emplace_back();
+      if (cut != line[i]) parts.back().push_back(std::move(cut));
+    }
+    parts.back().push_back(line[i]);
+  }
+  if (parts.size() > 1) {  // a line that only touches longitude 180 has a part of one position
+    std::erase_if(parts, [](const Positions& part) { return part.size() < 2; });
+  }
+  return parts;
+}
+
+Json geometry_of(const Positions& line) {
+  const std::vector<Positions> parts = cut_at_180(line);
+  if (parts.size() == 1) return {{"type", "LineString"}, {"coordinates", parts.front()}};
+  return {{"type", "MultiLineString"}, {"coordinates", parts}};
+}
 
 // Takes features one by one, so that a large map is never held as a tree.
 class FeatureCollection {
  public:
-  void add(Json coordinates, Json properties) {
-    const Json feature = {
-        {"type", "Feature"},
-        {"geometry", {{"type", "LineString"}, {"coordinates", std::move(coordinates)}}},
-        {"properties", std::move(properties)}};
+  void add(const Positions& line, Json properties) {
+    const Json feature = {{"type", "Feature"},
+                          {"geometry", geometry_of(line)},
+                          {"properties", std::move(properties)}};
     text_ += features_ == 0 ? "\n" : ",\n";
     text_ += feature.dump();
     ++features_;
@@ -31,15 +69,15 @@ class FeatureCollection {
   std::size_t features_ = 0;
 };
 
-Json coordinates_of(const std::vector<StoredVertex>& vertices) {
-  Json coordinates = Json::array();
+Positions positions_of(const std::vector<StoredVertex>& vertices) {
+  Positions positions;
   for (const StoredVertex& vertex : vertices) {
-    coordinates.push_back({vertex.longitude_deg, vertex.latitude_deg, vertex.altitude_m});
+    positions.push_back({vertex.longitude_deg, vertex.latitude_deg, vertex.altitude_m});
   }
-  return coordinates;
+  return positions;
 }
 
-Json coordinates_of(const WallEnd& end) { return {end.longitude_deg, end.latitude_deg}; }
+Position position_of(const WallEnd& end) { return {end.longitude_deg, end.latitude_deg}; }
 
 // The names that --layer may have, in words.
 std::string layers_of(const MapReader& map) {
@@ -81,7 +119,7 @@ Result<GeoJson> segments_geojson(const MapReader& map) {
                    "a line has two vertices or more", "build the map anew"};
     }
     collection.add(
-        coordinates_of(segment->vertices),
+        positions_of(segment->vertices),
         {{"id", id}, {"length_m", segment->length_m}, {"successors", segment->successors}});
   }
   return std::move(collection).finish();
@@ -107,8 +145,7 @@ Result<GeoJson> walls_geojson(const MapReader& map, const std::string& layer) {
   }
   FeatureCollection collection;
   for (const Wall& wall : walls_of(tiles)) {
-    collection.add({coordinates_of(wall.begin), coordinates_of(wall.end)},
-                   {{"sigma_m", wall.sigma_m}});
+    collection.add({position_of(wall.begin), position_of(wall.end)}, {{"sigma_m", wall.sigma_m}});
   }
   return std::move(collection).finish();
 }

@@ -18,7 +18,8 @@ struct GeoJson {
 };
 
 // Each segment's line in WGS84, [longitude_deg, latitude_deg, altitude_m], with the properties id,
-// length_m and successors. Errors: those of MapReader; corrupt (a segment without a line).
+// length_m and successors. A line across longitude 180 is cut there into a MultiLineString (RFC
+// 7946, 3.1.9). Errors: those of MapReader; corrupt (a segment without a line).
 Result<GeoJson> segments_geojson(const MapReader& map);
 
 // Each wall of a layer once, from its begin to its end in WGS84, [longitude_deg, latitude_deg],

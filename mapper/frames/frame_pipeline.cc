@@ -14,7 +14,7 @@ namespace milepost {
 
 struct FramePipeline::Impl {
   // Constant after construction.
-  const Drive& drive;
+  const FrameReader reader;
   const std::vector<std::size_t> frame_indices;
   const FeatureParameters parameters;
   const bool images;
@@ -33,7 +33,7 @@ struct FramePipeline::Impl {
 
   Impl(const Drive& from, std::vector<std::size_t> indices, const FeatureParameters& with,
        bool with_images, int count)
-      : drive(from),
+      : reader(from),
         frame_indices(std::move(indices)),
         parameters(with),
         images(with_images),
@@ -51,13 +51,17 @@ struct FramePipeline::Impl {
   }
 
   Result<ExtractedFrame> extract(const cv::Mat& gray, FeatureExtractor& extractor) const {
-    return ExtractedFrame{extractor.extract(gray), images ? wisurf(gray) : ImageDescriptor{}};
+    double darkest = 0;
+    double brightest = 0;
+    cv::minMaxLoc(gray, &darkest, &brightest);
+    return ExtractedFrame{extractor.extract(gray), static_cast<int>(darkest),
+                          static_cast<int>(brightest), images ? wisurf(gray) : ImageDescriptor{}};
   }
 
   void work() {
     FeatureExtractor extractor(parameters);
     while (const auto position = start_one()) {
-      const Result<cv::Mat> gray = read_frame_gray(drive, frame_indices[*position]);
+      const Result<cv::Mat> gray = reader.gray(frame_indices[*position]);
       Result<ExtractedFrame> frame = gray ? extract(*gray, extractor) : gray.error();
       const std::lock_guard lock(mutex);
       done.emplace(*position, std::move(frame));

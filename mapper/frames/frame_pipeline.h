@@ -12,6 +12,8 @@ namespace milepost {
 
 struct ExtractedFrame {
   FeatureSet features;
+  int darkest = 0;  // of the grey values, 0 to 255
+  int brightest = 0;
   ImageDescriptor image{};  // all 0 unless it was asked for
 };
 
@@ -28,7 +30,7 @@ class FramePipeline {
   FramePipeline& operator=(const FramePipeline&) = delete;
 
   // The next frame. REQUIRES: called at most once a frame index.
-  // Errors: those of read_frame_gray.
+  // Errors: those of FrameReader::gray.
   Result<ExtractedFrame> next();
 
  private:

@@ -45,6 +45,35 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+// Where a path leads through symbolic links, also to a file that is not there yet.
+fs::path followed(fs::path path) {
+  constexpr int kMostLinks = 40;  // as the kernel
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    const fs::path target = fs::read_symlink(path, error);
+    if (error) break;
+    path = folder_of(path) / target;
+  }
+  return path;
+}
+
+// Whether the file is written in place: a pipe or a device, or a file without a name of its own,
+// such as standard output by /dev/stdout.
+bool is_written_in_place(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_type type = fs::status(path, ignored).type();
+  if (type == fs::file_type::fifo || type == fs::file_type::character) return true;
+  return type == fs::file_type::regular && !fs::equivalent(path, followed(path), ignored);
+}
+
+Status write_content(const fs::path& file, std::string_view content, const fs::path& named) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+  stream.close();
+  if (stream) return ok_status();
+  return io_error(named, "cannot be written (" + reason(errno) + ")");
+}
+
 }  // namespace
 
 Result<std::string> read_text_file(const fs::path& path) {
@@ -63,38 +92,37 @@ Result<std::string> read_text_file(const fs::path& path) {
 }
 
 fs::path partial_path_for(const fs::path& final_path) {
-  return folder_of(final_path) /
-         ("." + final_path.filename().string() + ".partial-" + std::to_string(::getpid()));
+  const fs::path place = followed(final_path);
+  return folder_of(place) /
+         ("." + place.filename().string() + ".partial-" + std::to_string(::getpid()));
 }
 
 Status publish_file(const fs::path& partial, const fs::path& final_path) {
   std::error_code error;
+  const fs::path place = followed(final_path);
   Status status = sync_path(partial, O_RDONLY);
+  if (status.ok() && fs::exists(place, error) && !fs::is_regular_file(place, error)) {
+    status = io_error(final_path, "cannot be replaced (it is not a regular file)");
+  }
   if (status.ok()) {
-    fs::rename(partial, final_path, error);
+    fs::rename(partial, place, error);
     if (error) status = io_error(final_path, "cannot be replaced (" + error.message() + ")");
   }
   if (!status.ok()) {
     fs::remove(partial, error);
     return status;
   }
-  return sync_path(folder_of(final_path), O_RDONLY | O_DIRECTORY);
+  return sync_path(folder_of(place), O_RDONLY | O_DIRECTORY);
 }
 
 Status write_text_file(const fs::path& path, std::string_view content) {
+  if (is_written_in_place(path)) return write_content(path, content, path);
   const fs::path partial = partial_path_for(path);
-  {
-    std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (!file) {
-      const int error = errno;
-      std::error_code ignored;
-      fs::remove(partial, ignored);
-      return io_error(path, "cannot be written (" + reason(error) + ")");
-    }
-  }
-  return publish_file(partial, path);
+  Status written = write_content(partial, content, path);
+  if (written.ok()) return publish_file(partial, path);
+  std::error_code ignored;
+  fs::remove(partial, ignored);
+  return written;
 }
 
 }  // namespace milepost

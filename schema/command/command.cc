@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 
 #include "schema/command/version.h"
@@ -29,6 +30,12 @@ std::string program_help(const std::string& program, const std::string& descript
   }
   return text + "\n'" + program + " COMMAND --help' tells all about one of them; '" + program +
          " --version' the version.\n";
+}
+
+std::string in_one_line(const Error& error) {
+  std::string line = error.line();
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
 }
 
 int wrong_call(const std::string& program, const std::string& what) {
@@ -82,10 +89,18 @@ std::optional<int> parse_words(CLI::App& app, std::vector<std::string> words) {
 }
 
 int fail(const std::string& program, const Error& error) {
-  std::string line = error.line();
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  std::cerr << program << ": " << line << "\n";
+  std::cerr << program << ": " << in_one_line(error) << "\n";
   return kExitFailed;
+}
+
+void warn(const std::string& program, const Error& error) {
+  std::cerr << program << ": warning: " << in_one_line(error) << "\n";
+}
+
+std::ostream& report_stream(const std::string& output) {
+  const std::string path = std::filesystem::path(output).lexically_normal().string();
+  const bool is_stdout = path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+  return is_stdout ? std::cerr : std::cout;
 }
 
 void catch_stop_signals() {

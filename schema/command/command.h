@@ -6,6 +6,7 @@
 #include <charconv>
 #include <concepts>
 #include <functional>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -65,6 +66,13 @@ std::optional<int> parse_words(CLI::App& app, std::vector<std::string> words);
 
 // Prints "PROGRAM: LINE" on standard error and returns kExitFailed.
 int fail(const std::string& program, const Error& error);
+
+// Prints "PROGRAM: warning: LINE" on standard error.
+void warn(const std::string& program, const Error& error);
+
+// Where a command says what it wrote: on standard output, or on standard error where `output`, the
+// file that it wrote, is standard output itself.
+std::ostream& report_stream(const std::string& output);
 
 // From now on SIGINT and SIGTERM set a flag instead of ending the program; a second one ends it.
 void catch_stop_signals();

@@ -66,6 +66,10 @@ inline constexpr double kMaxSpeedMps = 70.0;
 // finite or out of range, time that does not increase, a position jump, no frame at all.
 Result<Drive> read_drive(const std::filesystem::path& folder);
 
+// Every file that the drive consists of: its description, its tables, which need not all be there,
+// and the images of its frames.
+std::vector<std::filesystem::path> files_of(const Drive& drive);
+
 // Writes drive.json, trajectory.csv and, where there are readings, gps.csv and odometry.csv into
 // `folder`, which is made if need be; frames are the caller's. Errors: io, invalid_input.
 Status write_drive(const Drive& drive, const std::filesystem::path& folder);

@@ -1,12 +1,14 @@
 #include "schema/drive/frame_image.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "schema/base/file.h"
-#include "schema/drive/image_bytes.h"
+#include "schema/drive/grey_depth.h"
+#include "schema/drive/image_decode.h"
 #include "schema/drive/tables.h"
 
 namespace milepost {
@@ -19,36 +21,35 @@ std::string place_of(const Drive& drive, std::size_t frame_index) {
   return file + ", frame " + std::to_string(frame_index);
 }
 
+std::vector<std::filesystem::path> images_of(const Drive& drive) {
+  std::vector<std::filesystem::path> images;
+  images.reserve(drive.frames.size());
+  for (const Frame& frame : drive.frames) images.push_back(drive.frame_path(frame));
+  return images;
+}
+
 std::string size_text(int width_px, int height_px) {
   return std::to_string(width_px) + "x" + std::to_string(height_px);
 }
 
-// The decoded image, or an empty one.
-cv::Mat decoded(const std::string& bytes) {
-  if (bytes.empty()) return {};
-  const std::vector<unsigned char> buffer(bytes.begin(), bytes.end());
-  try {
-    return cv::imdecode(buffer, cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {  // for example, more pixels than the decoder allows
-    return {};
-  }
-}
-
-// Errors say what is wrong with the image, whose name begins `what`; `where` is left to the caller.
-Result<cv::Mat> whole_image(const std::string& image) {
-  const Result<std::string> bytes = read_text_file(image);
+// The image as 8-bit grey. Errors: `where` is left to the caller.
+Result<cv::Mat> whole_image(const std::string& image, int grey_bits) {
+  Result<std::string> bytes = read_text_file(image);
   if (!bytes) {
     return Error{bytes.error().code, "", "image " + image + ": " + bytes.error().what,
                  "restore the image"};
   }
-  if (is_cut_short(as_bytes(*bytes))) {
-    return Error{ErrorCode::invalid_input, "", "image " + image + " is cut short",
-                 "copy the image again"};
+  Result<cv::Mat> gray =
+      decoded_image(std::move(*bytes), cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  if (!gray) {
+    const Error& error = gray.error();
+    return Error{error.code, "", "image " + image + " " + error.what, error.mend};
   }
-  cv::Mat gray = decoded(*bytes);
-  if (!gray.empty()) return gray;
-  return Error{ErrorCode::invalid_input, "", "image " + image + " cannot be decoded",
-               "replace the image"};
+  if (gray->type() == CV_8UC1) return gray;
+  if (gray->type() == CV_16UC1) return in_8_bits(*gray, grey_bits);
+  return Error{ErrorCode::invalid_input, "",
+               "image " + image + " has grey values that are not whole numbers of 8 or 16 bits",
+               "convert the image"};
 }
 
 Status check_size(const cv::Mat& gray, const std::string& image, const Camera& camera) {
@@ -61,25 +62,29 @@ Status check_size(const cv::Mat& gray, const std::string& image, const Camera& c
 
 }  // namespace
 
-Result<cv::Mat> read_image_gray(const std::filesystem::path& image, const Camera& camera) {
-  Result<cv::Mat> gray = whole_image(image.string());
-  if (!gray) return gray;
-  const Status size = check_size(*gray, image.string(), camera);
-  return size ? gray : size.error();
-}
+FrameReader::FrameReader(const Drive& drive)
+    : drive_(drive), grey_bits_(grey_bits_of(images_of(drive))) {}
 
-Result<cv::Mat> read_frame_gray(const Drive& drive, std::size_t frame_index) {
-  const std::string place = place_of(drive, frame_index);
-  const std::string image = drive.frame_path(drive.frames[frame_index]).string();
+Result<cv::Mat> FrameReader::gray(std::size_t frame_index) const {
+  const std::string place = place_of(drive_, frame_index);
+  const std::string image = drive_.frame_path(drive_.frames[frame_index]).string();
   const auto at_place = [&](Error error, const std::string& other_mend) {
     error.where = place;
     error.mend += other_mend;
     return error;
   };
-  Result<cv::Mat> gray = whole_image(image);
+  Result<cv::Mat> gray = whole_image(image, grey_bits_);
   if (!gray) return at_place(gray.error(), " or remove the row");
-  const Status size = check_size(*gray, image, drive.camera);
+  const Status size = check_size(*gray, image, drive_.camera);
   return size ? gray : at_place(size.error(), "");
+}
+
+Result<cv::Mat> read_image_gray(const std::filesystem::path& image, const Camera& camera,
+                                int grey_bits) {
+  Result<cv::Mat> gray = whole_image(image.string(), grey_bits);
+  if (!gray) return gray;
+  const Status size = check_size(*gray, image.string(), camera);
+  return size ? gray : size.error();
 }
 
 }  // namespace milepost

@@ -125,6 +125,15 @@ Status read_odometry(Drive& drive) {
 
 }  // namespace
 
+std::vector<fs::path> files_of(const Drive& drive) {
+  std::vector<fs::path> files;
+  for (const char* name : {kDescriptionFile, kTrajectoryFile, kGpsFile, kOdometryFile}) {
+    files.push_back(drive.folder / name);
+  }
+  for (const Frame& frame : drive.frames) files.push_back(drive.frame_path(frame));
+  return files;
+}
+
 Result<Drive> read_drive(const fs::path& folder) {
   Result<Drive> drive = read_description(folder);
   if (!drive) return drive;

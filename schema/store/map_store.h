@@ -108,7 +108,8 @@ class MapReader {
 // The same calls give the same bytes. Not safe to use from several threads at once.
 class MapWriter {
  public:
-  // Errors: io (no such folder, no permission, disk full).
+  // Errors: io (no such folder, no permission, disk full); invalid_input for a file that is there
+  // and is no map, which is not replaced.
   // REQUIRES: no other writer of this process is at work on the same file.
   static Result<MapWriter> create(const std::filesystem::path& file);
 

@@ -1,10 +1,14 @@
-#include <cmath>
 #include <system_error>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "schema/base/digest.h"
 #include "schema/base/file.h"
+#include "schema/store/map_checks.h"
 #include "schema/store/map_content.h"
+#include "schema/store/map_output.h"
+#include "schema/store/map_rows.h"
 #include "schema/store/map_sql.h"
 #include "schema/store/map_store.h"
 #include "schema/store/sqlite.h"
@@ -40,9 +44,10 @@ Error wrong_call(const fs::path& file, const std::string& what) {
   return {ErrorCode::invalid_input, file.string(), what, ""};
 }
 
-bool is_finite(const StoredVertex& v) {
-  return std::isfinite(v.latitude_deg) && std::isfinite(v.longitude_deg) &&
-         std::isfinite(v.altitude_m) && std::isfinite(v.along_m);
+// Readers parse what they are told of a layer or a feature.
+bool is_json_object(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '{' && nlohmann::json::accept(text);
 }
 
 // The database of a map in the making. The statements go before the connection they belong to.
@@ -171,6 +176,9 @@ MapWriter& MapWriter::operator=(MapWriter&&) noexcept = default;
 MapWriter::~MapWriter() = default;
 
 Result<MapWriter> MapWriter::create(const fs::path& file) {
+  if (const Status free = check_outputs({{"--map", file, &kMapOutput}}, {}); !free) {
+    return free.error();
+  }
   auto impl = std::make_unique<Impl>();
   impl->file = file;
   impl->partial = partial_path_for(file);
@@ -182,24 +190,27 @@ Result<MapWriter> MapWriter::create(const fs::path& file) {
 }
 
 Status MapWriter::set_feature_json(const std::string& json) {
+  if (!impl_->failure.ok()) return impl_->failure;
+  if (!is_json_object(json)) {
+    return wrong_call(impl_->file, "the feature parameters are no JSON object (FORMAT.md 2.3)");
+  }
   impl_->feature_json = json;
-  return impl_->failure;
+  return ok_status();
 }
 
 Status MapWriter::add_layer(const std::string& name, const std::string& parameters_json) {
   if (!impl_->failure.ok()) return impl_->failure;
   if (!is_layer_name(name)) return wrong_call(impl_->file, "'" + name + "' is no layer's name");
+  if (!is_json_object(parameters_json)) {
+    return wrong_call(impl_->file,
+                      "the parameters of layer " + name + " are no JSON object (FORMAT.md 2.4)");
+  }
   return impl_->keep(impl_->insert(kLayer).bind(1, name).bind(2, parameters_json).run());
 }
 
 Status MapWriter::add_segment(const StoredSegment& segment) {
   if (!impl_->failure.ok()) return impl_->failure;
-  if (!is_segment_id(segment.id)) {
-    return wrong_call(impl_->file, "'" + segment.id + "' is no segment's id");
-  }
-  if (!std::isfinite(segment.length_m) || !std::ranges::all_of(segment.vertices, is_finite)) {
-    return wrong_call(impl_->file, "segment " + segment.id + " has a number that is not finite");
-  }
+  if (Status checked = check_segment(segment, impl_->file.string()); !checked) return checked;
   Status status = impl_->insert(kSegment).bind(1, segment.id).bind(2, segment.length_m).run();
   if (status.ok()) status = impl_->add_vertices(segment);
   if (status.ok()) status = impl_->add_successors(segment);
@@ -210,10 +221,9 @@ Status MapWriter::add_tile(const std::string& segment, const std::string& layer,
                            std::uint32_t index, const AlongRange& along, std::uint64_t items,
                            ByteView frame) {
   if (!impl_->failure.ok()) return impl_->failure;
-  if (!std::isfinite(along.from_m) || !std::isfinite(along.to_m) || along.from_m > along.to_m) {
-    return wrong_call(impl_->file, "tile " + std::to_string(index) + " of segment " + segment +
-                                       " has no along range");
-  }
+  const std::string where = impl_->file.string() + ", " + tile_name(segment, layer, index);
+  if (Status checked = check_along(along, where); !checked) return checked;
+  if (Status checked = check_frame(frame.size(), items, where); !checked) return checked;
   const Result<std::int64_t> frame_id = impl_->add_frame(frame);
   if (!frame_id) return impl_->keep(frame_id.error());
   return impl_->keep(impl_->insert(kTile)
@@ -235,6 +245,8 @@ Status MapWriter::add_cell(const std::string& layer, std::uint32_t cell, std::ui
   if (!is_cell(cell)) {
     return wrong_call(impl_->file, "the grid has no cell " + std::to_string(cell));
   }
+  const std::string where = impl_->file.string() + ", " + cell_name(layer, cell);
+  if (Status checked = check_frame(frame.size(), items, where); !checked) return checked;
   const Result<std::int64_t> frame_id = impl_->add_frame(frame);
   if (!frame_id) return impl_->keep(frame_id.error());
   return impl_->keep(impl_->insert(kCell)

@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   double bare_total_s = 0;
   double find_total_s = 0;
   std::size_t next_reading = 0;
+  const FrameReader frames(*drive);
   for (std::size_t i = 0; i < drive->frames.size(); ++i) {
     const double timestamp_s = drive->frames[i].timestamp_s;
     for (; next_reading < drive->odometry.size() &&
@@ -56,7 +57,7 @@ int main(int argc, char** argv) {
          ++next_reading) {
       finder.observe(drive->odometry[next_reading]);
     }
-    const Result<cv::Mat> gray = read_frame_gray(*drive, i);
+    const Result<cv::Mat> gray = frames.gray(i);
     if (!gray) return fail(gray.error());
     const double bare_s = bench::seconds_of([&] {
       segments->detect(*gray, ends);

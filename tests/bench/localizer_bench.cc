@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   double bare_total_s = 0;
   double localizer_total_s = 0;
   std::size_t next_gps = 0;
+  const FrameReader frames(*query);
   for (std::size_t i = 0; i < query->frames.size(); ++i) {
     const Frame& frame = query->frames[i];
     for (; next_gps < query->gps.size() &&
@@ -74,7 +75,7 @@ int main(int argc, char** argv) {
       const GpsFix& gps = query->gps[next_gps];
       localizer.observe({gps.timestamp_s, gps.position, gps.sigma_m});
     }
-    const Result<cv::Mat> gray = read_frame_gray(*query, i);
+    const Result<cv::Mat> gray = frames.gray(i);
     if (!gray) return fail(gray.error());
     const double bare_s = bench::seconds_of(
         [&] { sift->detectAndCompute(*gray, cv::noArray(), keypoints, descriptors); });

@@ -19,6 +19,7 @@ using namespace milepost;
 
 // Decodes every frame and extracts its features, as the mapper has to, and nothing else.
 void bare_sift(const Drive& drive, const FeatureParameters& parameters, int threads) {
+  const FrameReader frames(drive);
   std::atomic<std::size_t> next{0};
   std::vector<std::thread> workers;
   for (int t = 0; t < threads; ++t) {
@@ -29,8 +30,7 @@ void bare_sift(const Drive& drive, const FeatureParameters& parameters, int thre
       std::vector<cv::KeyPoint> keypoints;
       cv::Mat descriptors;
       for (std::size_t i = next++; i < drive.frames.size(); i = next++) {
-        sift->detectAndCompute(read_frame_gray(drive, i).value(), cv::noArray(), keypoints,
-                               descriptors);
+        sift->detectAndCompute(frames.gray(i).value(), cv::noArray(), keypoints, descriptors);
       }
     });
   }

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "schema/feature/codebook.h"
 #include "schema/store/map_store.h"
@@ -156,6 +158,85 @@ TEST(BuildMap, TheLaboratorysMapHoldsTheOtherMethodsLayersToo) {
     EXPECT_EQ(reader.tile("street-map", "tracklets", entry.index).value(),
               plain.tile("street-map", "tracklets", entry.index).value());
   }
+}
+
+// The street with each frame's grey values as `change` makes them, in PNGs of up to 16 bits.
+class ChangedStreet {
+ public:
+  explicit ChangedStreet(const std::function<void(cv::Mat& gray)>& change) {
+    Drive drive = street();
+    std::filesystem::create_directories(folder_ / drive.images);
+    for (Frame& frame : drive.frames) {
+      cv::Mat gray = cv::imread(drive.frame_path(frame).string(), cv::IMREAD_GRAYSCALE);
+      change(gray);
+      frame.filename = std::filesystem::path(frame.filename).stem().string() + ".png";
+      EXPECT_TRUE(cv::imwrite((folder_ / drive.images / frame.filename).string(), gray));
+    }
+    EXPECT_TRUE(write_drive(drive, folder_.path()).ok());
+  }
+
+  Drive drive() const { return read_drive(folder_.path()).value(); }
+
+ private:
+  TempFolder folder_;
+};
+
+Result<BuildReport> built(const std::vector<Drive>& drives, const std::filesystem::path& map_file,
+                          const BuildSettings& settings = {}) {
+  return build_map(drives, map_file, settings, 2, [](const BuildProgress&) { return true; });
+}
+
+TEST(BuildMap, AFewBitsIn16AreMappedAsAll8) {
+  const ChangedStreet eight([](cv::Mat&) {});
+  const TempFolder folder;
+  const std::size_t expected = built({eight.drive()}, folder / "8.map")->tracklets;
+  for (const int bits : {8, 10, 12, 14, 16}) {
+    const ChangedStreet street_of_bits(
+        [bits](cv::Mat& gray) { gray.convertTo(gray, CV_16U, ((1 << bits) - 1) / 255.0); });
+    const auto report = built({street_of_bits.drive()}, folder / "bits.map");
+    ASSERT_TRUE(report.ok()) << report.error().line();
+    EXPECT_NEAR(static_cast<double>(report->tracklets), static_cast<double>(expected),
+                0.02 * static_cast<double>(expected))
+        << bits << " bits";
+  }
+}
+
+TEST(BuildMap, NothingFoundIsAnErrorAndTheOldMapStays) {
+  const BuiltMap old;
+  const std::string before = old.bytes();
+  const ChangedStreet black([](cv::Mat& gray) { gray = 3; });
+  const auto report = built({black.drive()}, old.file());
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.error().code, ErrorCode::invalid_input);
+  const std::string frames = std::to_string(old.report.frames);
+  EXPECT_EQ(
+      report.error().line(),
+      black.drive().folder.string() + ": there is nothing to localize by in its " + frames +
+          " frames: features 0, grey values 3 to 3 of 0 to 255, tracklets 0; check its frames "
+          "and their order, leave the drive out, or give --allow-empty");
+  EXPECT_TRUE(old.bytes() == before);
+}
+
+TEST(BuildMap, ADriveThatGivesNothingIsNamedAmongOthers) {
+  const ChangedStreet black([](cv::Mat& gray) { gray = 0; });
+  Drive dark = black.drive();
+  dark.name = "dark";
+  const TempFolder folder;
+  const auto refused = built({street(), dark}, folder / "two.map");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().where, dark.folder.string());
+  EXPECT_FALSE(std::filesystem::exists(folder / "two.map"));
+
+  BuildSettings settings;
+  settings.allow_empty = true;
+  const auto allowed = built({street(), dark}, folder / "two.map", settings);
+  ASSERT_TRUE(allowed.ok()) << allowed.error().line();
+  ASSERT_EQ(allowed->drives.size(), 2U);
+  EXPECT_EQ(allowed->drives[0].tracklets, allowed->tracklets);
+  EXPECT_GT(allowed->drives[0].features, 1000U);
+  EXPECT_EQ(allowed->drives[1].tracklets, 0U);
+  EXPECT_EQ(allowed->drives[1].brightest, 0);
+  EXPECT_TRUE(MapReader::open(folder / "two.map")->verify().ok());
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "schema/base/file.h"
 #include "schema/store/map_store.h"
+#include "schema/store/sqlite.h"
 #include "schema/tile/codec.h"
 #include "tests/support/temp_folder.h"
 
@@ -87,6 +88,8 @@ class ExportCommandTest : public ::testing::Test {
       EXPECT_EQ(entry.path(), map_) << "is left behind";
     }
   }
+
+  json geometry_across(const std::vector<std::pair<double, double>>& line);
 
   json exported() const { return json::parse(*read_text_file(out_)); }
 
@@ -162,18 +165,60 @@ TEST_F(ExportCommandTest, ADamagedCellIsNamed) {
 }
 
 TEST_F(ExportCommandTest, ASegmentWithoutALineIsNamed) {
+  auto map = sqlite::Database::open(map_, sqlite::Access::read_write);
+  ASSERT_TRUE(map.ok());
+  ASSERT_TRUE(map->execute("DELETE FROM vertices WHERE segment = 'b' AND position > 0").ok());
+  expect_refused(export_layer("segments"), 1, {"town.map, segment b"});
+}
+
+// The positions of the exported geometry of a segment with these longitudes and latitudes.
+json ExportCommandTest::geometry_across(const std::vector<std::pair<double, double>>& line) {
   auto writer = MapWriter::create(map_);
-  ASSERT_TRUE(writer.ok());
-  ASSERT_TRUE(writer->add_segment({"dot", 0, {{49, 8, 0, 0}}, {}}).ok());
-  ASSERT_TRUE(writer->finish().ok());
-  expect_refused(export_layer("segments"), 1, {"town.map, segment dot"});
+  StoredSegment segment{"far", 100, {}, {}};
+  for (const auto& [longitude_deg, latitude_deg] : line) {
+    const double along_m = 10.0 * static_cast<double>(segment.vertices.size());
+    segment.vertices.push_back({latitude_deg, longitude_deg, along_m, along_m});
+  }
+  EXPECT_TRUE(writer->add_segment(segment).ok());
+  EXPECT_TRUE(writer->finish().ok());
+  EXPECT_EQ(export_layer("segments").output, out_.string() + ": 1 segments\n");
+  return exported().at("features").at(0).at("geometry");
+}
+
+TEST_F(ExportCommandTest, WhatCrossesLongitude180IsCutThere) {
+  // RFC 7946, 3.1.9; altitudes are those of the vertices, 10 m apart.
+  EXPECT_EQ(geometry_across({{179.75, -17}, {-179.75, -18}}),
+            json({{"type", "MultiLineString"},
+                  {"coordinates",
+                   {{{179.75, -17.0, 0.0}, {180.0, -17.5, 5.0}},
+                    {{-180.0, -17.5, 5.0}, {-179.75, -18.0, 10.0}}}}}));
+  EXPECT_EQ(geometry_across({{-179.5, 1}, {-179.75, 1}, {179.75, 2}, {-179.75, 2}}),
+            json({{"type", "MultiLineString"},
+                  {"coordinates",
+                   {{{-179.5, 1.0, 0.0}, {-179.75, 1.0, 10.0}, {-180.0, 1.5, 15.0}},
+                    {{180.0, 1.5, 15.0}, {179.75, 2.0, 20.0}, {180.0, 2.0, 25.0}},
+                    {{-180.0, 2.0, 25.0}, {-179.75, 2.0, 30.0}}}}}));
+}
+
+TEST_F(ExportCommandTest, WhatOnlyTouchesLongitude180IsOneLine) {
+  const auto is_line = [](const json& geometry, const json& coordinates) {
+    return geometry == json({{"type", "LineString"}, {"coordinates", coordinates}});
+  };
+  EXPECT_TRUE(
+      is_line(geometry_across({{180, 1}, {-179.5, 2}}), {{-180.0, 1.0, 0.0}, {-179.5, 2.0, 10.0}}));
+  EXPECT_TRUE(
+      is_line(geometry_across({{-179.5, 1}, {180, 2}}), {{-179.5, 1.0, 0.0}, {-180.0, 2.0, 10.0}}));
+  EXPECT_TRUE(
+      is_line(geometry_across({{180, 1}, {-180, 2}}), {{180.0, 1.0, 0.0}, {180.0, 2.0, 10.0}}));
+  EXPECT_TRUE(
+      is_line(geometry_across({{180, 1}, {180, 2}}), {{180.0, 1.0, 0.0}, {180.0, 2.0, 10.0}}));
 }
 
 TEST_F(ExportCommandTest, AMapIsNotReplacedByItsExport) {
   const std::string before = *read_text_file(map_);
   const Outcome outcome =
       run("--map " + map_.string() + " --layer walls --geojson " + map_.string());
-  expect_refused(outcome, 1, {"town.map", "this is the map itself"});
+  expect_refused(outcome, 1, {"town.map", "the command reads this file"});
   EXPECT_EQ(*read_text_file(map_), before);
 }
 

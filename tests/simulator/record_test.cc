@@ -81,7 +81,7 @@ TEST(Record, IsReadBackAsADrive) {
     EXPECT_FALSE(drive->gps.empty());
     EXPECT_FALSE(drive->odometry.empty());
     for (std::size_t i = 0; i < drive->frames.size(); ++i) {
-      const Result<cv::Mat> image = read_frame_gray(*drive, i);
+      const Result<cv::Mat> image = FrameReader(*drive).gray(i);
       EXPECT_TRUE(image.ok()) << image.error().line();
     }
   }

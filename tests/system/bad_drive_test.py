@@ -66,6 +66,21 @@ class BadDrive(CommandTest):
         frame.write_bytes(frame.read_bytes()[:-2000])
         self.expect_fault("trajectory.csv, line 8", frame.name)
 
+    def test_frames_are_judged_by_their_data(self):
+        frame = self.frame(8)
+        whole = frame.read_bytes()
+        self.assertEqual(whole[-2:], b"\xff\xd9", "the street's frames are JPEGs")
+        self.expect_done(self.build(self.drive, self.map))
+        expected = self.map.read_bytes()
+        frame.write_bytes(whole[:-2])  # cameras leave the end marker out
+        result = self.build(self.drive, self.map)
+        self.expect_done(result)
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(self.map.read_bytes(), expected)
+        frame.write_bytes(whole[:len(whole) // 2] + b"\xff\xd9")
+        self.map.unlink()
+        self.expect_fault("trajectory.csv, line 8", frame.name, "is cut short; copy the image again")
+
     def test_other_image_size(self):
         edit_json(self.drive / "drive.json", lambda drive: drive["camera"].__setitem__("width_px", 640))
         self.expect_fault("trajectory.csv, line 2", "600", "640", "500")

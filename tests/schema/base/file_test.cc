@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "tests/support/temp_folder.h"
 
@@ -41,6 +43,45 @@ TEST(File, AnOpenReaderKeepsTheOldContent) {
   std::string content;
   reader >> content;
   EXPECT_EQ(content, "old");
+}
+
+TEST(File, ALinkStaysAndWhatItLeadsToIsReplaced) {
+  const testing::TempFolder folder;
+  fs::create_directory(folder / "sub");
+  fs::create_symlink("sub/target", folder / "link");
+  fs::create_symlink(folder / "link", folder / "chain");
+  for (const std::string content : {"made", "replaced"}) {
+    ASSERT_TRUE(write_text_file(folder / "chain", content).ok());
+    EXPECT_TRUE(fs::is_symlink(folder / "chain"));
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_FALSE(fs::is_symlink(folder / "sub" / "target"));
+    EXPECT_EQ(*read_text_file(folder / "sub" / "target"), content);
+  }
+  EXPECT_EQ(files_in(folder / "sub"), 1);
+}
+
+TEST(File, APipeIsWrittenToAndStaysAPipe) {
+  const testing::TempFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::string read;
+  std::thread reader([&] { std::getline(std::ifstream(folder / "pipe"), read, '\0'); });
+  EXPECT_TRUE(write_text_file(folder / "pipe", "two\nlines").ok());
+  reader.join();
+  EXPECT_EQ(read, "two\nlines");
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(File, APipeIsNeverReplaced) {
+  const testing::TempFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const fs::path partial = partial_path_for(folder / "pipe");
+  std::ofstream(partial) << "x";
+  const Status status = publish_file(partial, folder / "pipe");
+  ASSERT_FALSE(status.ok());
+  EXPECT_THAT(status.error().line(), HasSubstr("pipe: cannot be replaced (it is not a regular"));
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+  EXPECT_FALSE(fs::exists(partial));
 }
 
 TEST(File, ReadingNamesAMissingFile) {

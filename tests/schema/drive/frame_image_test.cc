@@ -6,7 +6,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "schema/drive/image_bytes.h"
 #include "tests/schema/drive/drive_folder.h"
 
 namespace milepost {
@@ -35,7 +34,7 @@ class FrameImage : public ::testing::Test {
     folder_.write("frames/b.png", bytes);
     const Result<Drive> drive = read_drive(folder_.path());
     if (!drive) return drive.error();
-    return read_frame_gray(*drive, 1);
+    return FrameReader(*drive).gray(1);
   }
 
   std::string refusal(const std::string& bytes) {
@@ -71,7 +70,7 @@ TEST_F(FrameImage, RefusesAnImageThatIsGone) {
   const Result<Drive> drive = read_drive(folder_.path());
   ASSERT_TRUE(drive.ok());
   std::filesystem::remove(folder_.path() / "frames" / "b.png");
-  const Result<cv::Mat> image = read_frame_gray(*drive, 1);
+  const Result<cv::Mat> image = FrameReader(*drive).gray(1);
   ASSERT_FALSE(image.ok());
   EXPECT_EQ(image.error().code, ErrorCode::not_found);
   EXPECT_EQ(image.error().line(),
@@ -93,37 +92,12 @@ TEST_F(FrameImage, RefusesAnotherSizeThanTheCameras) {
   EXPECT_THAT(refusal(encoded(".png", smooth_image(16, 11))), HasSubstr(" is 16x11 pixels"));
 }
 
-TEST_F(FrameImage, RefusesAnImageCutShortAnywhere) {
-  for (const char* extension : {".jpg", ".png"}) {
-    const std::string whole = encoded(extension, smooth_image(16, 12));
-    ASSERT_EQ(refusal(whole), "accepted");
-    for (std::size_t size = 9; size < whole.size(); ++size) {
-      ASSERT_EQ(refusal(whole.substr(0, size)),
-                start_of_line() + " is cut short; copy the image again or remove the row")
-          << extension << " of " << size << " bytes";
-    }
-  }
-}
-
-TEST_F(FrameImage, AcceptsBytesAfterTheImagesEnd) {
-  EXPECT_EQ(refusal(encoded(".jpg", smooth_image(16, 12)) + "a trailer"), "accepted");
-}
-
-TEST_F(FrameImage, IsNotMisledByAThumbnailsEnd) {
-  // An application segment that holds an end marker, as an EXIF thumbnail does.
-  const std::string whole = encoded(".jpg", smooth_image(16, 12));
-  const std::string segment("\xff\xe5\x00\x06\xff\xd9\xff\xd9", 8);
-  const std::string with_segment = whole.substr(0, 2) + segment + whole.substr(2);
-  EXPECT_EQ(refusal(with_segment), "accepted");
-  EXPECT_THAT(refusal(with_segment.substr(0, with_segment.size() - 2)), HasSubstr("cut short"));
-}
-
 TEST_F(FrameImage, NamesTheFrameOfADriveThatWasNotRead) {
   Drive drive;
   drive.folder = "made";
   drive.images = "frames";
   drive.frames = {{"a.png", 1, {49, 8, 0}, 0}};
-  const Result<cv::Mat> image = read_frame_gray(drive, 0);
+  const Result<cv::Mat> image = FrameReader(drive).gray(0);
   ASSERT_FALSE(image.ok());
   EXPECT_THAT(image.error().line(),
               StartsWith("made/trajectory.csv, frame 0: image made/frames/a.png: "));

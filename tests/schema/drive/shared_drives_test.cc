@@ -36,7 +36,7 @@ TEST(SharedDrives, AreReadWithTheirFirstAndLastFrame) {
     EXPECT_EQ(drive->gps.empty(), !fs::exists(folder / "gps.csv"));
     EXPECT_EQ(drive->odometry.empty(), !fs::exists(folder / "odometry.csv"));
     for (const std::size_t index : {std::size_t{0}, drive->frames.size() - 1}) {
-      const Result<cv::Mat> image = read_frame_gray(*drive, index);
+      const Result<cv::Mat> image = FrameReader(*drive).gray(index);
       EXPECT_TRUE(image.ok()) << image.error().line();
     }
   }

@@ -39,7 +39,7 @@ void add_example(MapWriter& writer) {
         writer.add_tile("east", "tracklets", i, {from_m, i == 3 ? 80 : from_m + 25}, 5 + i, frame));
   }
   expect_ok(writer.add_tile("west", "tracklets", 0, {0, 12}, 3, frame_of(50, 99)));
-  expect_ok(writer.add_tile("east", "walls", 7, {70, 71}, 1, {}));
+  expect_ok(writer.add_tile("east", "walls", 7, {70, 71}, 1, frame_of(40, 7)));
   for (const std::uint32_t cell : kCells) {
     expect_ok(writer.add_cell("walls", cell, 12, frame_of(500, cell)));
   }

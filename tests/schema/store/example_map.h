@@ -14,6 +14,9 @@ namespace milepost::testing {
 inline constexpr std::uint32_t kCells[] = {
     27820 * kCellColumns + 37700, 27820 * kCellColumns + 37701, 27821 * kCellColumns + 37700};
 
+// The shortest line that a segment can have.
+inline const std::vector<StoredVertex> kShortLine = {{49, 8, 100, 0}, {49.1, 8, 100, 1}};
+
 // Reproducible bytes that no compressor shortens, as a stored frame's.
 Bytes frame_of(std::size_t size, std::uint32_t seed);
 

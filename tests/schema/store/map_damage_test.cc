@@ -111,7 +111,7 @@ TEST_F(MapDamageTest, ATruncatedFileIsRefused) {
 TEST_F(MapDamageTest, AFileWithoutItsLastBytesIsCaughtByVerify) {
   Result<MapWriter> writer = MapWriter::create(file_);
   ASSERT_TRUE(writer->add_layer("l", "{}").ok());
-  ASSERT_TRUE(writer->add_segment({"s", 1, {}, {}}).ok());
+  ASSERT_TRUE(writer->add_segment({"s", 1, testing::kShortLine, {}}).ok());
   ASSERT_TRUE(writer->add_tile("s", "l", 0, {0, 1}, 1, testing::frame_of(100'000, 1)).ok());
   ASSERT_TRUE(writer->finish().ok());
   EXPECT_EQ(verify_error(), "no error");

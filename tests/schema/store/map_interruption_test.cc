@@ -52,7 +52,7 @@ int status_of(pid_t child) {
 // Adds tiles until one fails or there are `count`.
 Status add_tiles(MapWriter& writer, std::uint32_t count) {
   Status status = writer.add_layer("tracklets", "{}");
-  if (status.ok()) status = writer.add_segment({"s", 1000, {}, {}});
+  if (status.ok()) status = writer.add_segment({"s", 1000, testing::kShortLine, {}});
   for (std::uint32_t i = 0; i < count && status.ok(); ++i) {
     status = writer.add_tile("s", "tracklets", i, {1.0 * i, 2.0 * i}, 1,
                              testing::frame_of(kFrameBytes, i));

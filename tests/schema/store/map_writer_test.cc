@@ -65,7 +65,7 @@ TEST_F(MapWriterTest, TheBuildIsTheDigestThatFormatMdTells) {
   MapWriter map = writer();
   ASSERT_TRUE(map.set_feature_json("{}").ok());
   ASSERT_TRUE(map.add_layer("l", "{\"a\": 1}").ok());
-  ASSERT_TRUE(map.add_segment({"s", 20, {{49, 8, 100, 0.5}}, {"t"}}).ok());
+  ASSERT_TRUE(map.add_segment({"s", 20, {{49, 8, 100, 0.5}, {50, 9, 101, 20}}, {"t"}}).ok());
   ASSERT_TRUE(map.add_tile("s", "l", 6, {1, 2.5}, 3, as_bytes("abc")).ok());
   ASSERT_TRUE(map.add_cell("l", 77, 4, as_bytes("walls")).ok());
   FieldDigest digest;
@@ -77,10 +77,13 @@ TEST_F(MapWriterTest, TheBuildIsTheDigestThatFormatMdTells) {
   digest.add(std::uint64_t{1});
   digest.add("s");
   digest.add(20.0);
-  digest.add(std::uint64_t{1});
+  digest.add(std::uint64_t{2});
   digest.add("s");
   digest.add(std::uint64_t{0});
   for (const double number : {49.0, 8.0, 100.0, 0.5}) digest.add(number);
+  digest.add("s");
+  digest.add(std::uint64_t{1});
+  for (const double number : {50.0, 9.0, 101.0, 20.0}) digest.add(number);
   digest.add(std::uint64_t{1});
   digest.add("s");
   digest.add(std::uint64_t{0});
@@ -105,7 +108,7 @@ TEST_F(MapWriterTest, TheOrderOfTheCallsIsNotInTheBuild) {
   const auto write = [&](std::uint32_t first, std::uint32_t second) {
     MapWriter map = writer();
     EXPECT_TRUE(map.add_layer("l", "{}").ok());
-    EXPECT_TRUE(map.add_segment({"s", 20, {}, {}}).ok());
+    EXPECT_TRUE(map.add_segment({"s", 20, testing::kShortLine, {}}).ok());
     EXPECT_TRUE(map.add_tile("s", "l", first, {0, 1}, 1, frame_of(10, first)).ok());
     EXPECT_TRUE(map.add_tile("s", "l", second, {0, 1}, 1, frame_of(10, second)).ok());
     return *map.finish();
@@ -120,7 +123,7 @@ TEST_F(MapWriterTest, ReplacesAMapWhileAReaderGoesOnReadingItsBuild) {
   ASSERT_TRUE(reader.ok());
   MapWriter map = writer();
   ASSERT_TRUE(map.add_layer("tracklets", "{}").ok());
-  ASSERT_TRUE(map.add_segment({"new", 1, {}, {}}).ok());
+  ASSERT_TRUE(map.add_segment({"new", 1, testing::kShortLine, {}}).ok());
   const std::string new_build = *map.finish();
 
   EXPECT_TRUE(reader->verify().ok());
@@ -147,6 +150,16 @@ TEST_F(MapWriterTest, LeftoversOfAKilledWriterDoNotMatter) {
   EXPECT_TRUE(MapReader::open(file_)->verify().ok());
 }
 
+TEST_F(MapWriterTest, ReplacesNothingButMaps) {
+  std::ofstream(file_) << "notes";
+  const auto over_notes = MapWriter::create(file_);
+  ASSERT_FALSE(over_notes.ok());
+  EXPECT_EQ(over_notes.error().code, ErrorCode::invalid_input);
+  EXPECT_THAT(over_notes.error().line(), HasSubstr("town.map: the file that is there is not a"));
+  EXPECT_EQ(content_of(file_), "notes");
+  EXPECT_EQ(files_in(folder_.path()), 1);
+}
+
 TEST_F(MapWriterTest, AMapWithoutAnythingIsAMap) {
   MapWriter map = writer();
   ASSERT_TRUE(map.finish().ok());
@@ -159,24 +172,67 @@ TEST_F(MapWriterTest, AMapWithoutAnythingIsAMap) {
 
 TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
+  const StoredVertex begin{49, 8, 100, 0};
   MapWriter map = writer();
   testing::add_example(map);
   const auto expect_refused = [&](const Status& status, const std::string& what) {
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
-    EXPECT_EQ(status.error().line(), file_.string() + ": " + what);
+    EXPECT_EQ(status.error().line(), file_.string() + what);
   };
-  expect_refused(map.add_segment({"a/b", 1, {}, {}}), "'a/b' is no segment's id");
-  expect_refused(map.add_layer("", "{}"), "'' is no layer's name");
-  expect_refused(map.add_segment({"c", nan, {}, {}}), "segment c has a number that is not finite");
-  expect_refused(map.add_segment({"c", 1, {{nan, 0, 0, 0}}, {}}),
-                 "segment c has a number that is not finite");
-  expect_refused(map.add_tile("east", "walls", 8, {2, 1}, 1, {}),
-                 "tile 8 of segment east has no along range");
-  expect_refused(map.add_tile("east", "walls", 8, {nan, 1}, 1, {}),
-                 "tile 8 of segment east has no along range");
-  expect_refused(map.add_cell("walls", kCellRows * kCellColumns, 1, {}),
-                 "the grid has no cell 2592000000");
+  expect_refused(map.add_layer("", "{}"), ": '' is no layer's name");
+  for (const char* json : {"", "[]", "{", "{} {}", "{\"a\": NaN}", "{\"a\": \"\xff\"}"}) {
+    expect_refused(map.add_layer("l", json),
+                   ": the parameters of layer l are no JSON object (FORMAT.md 2.4)");
+    expect_refused(map.set_feature_json(json),
+                   ": the feature parameters are no JSON object (FORMAT.md 2.3)");
+  }
+
+  const auto with = [&](const StoredVertex& end) {
+    return StoredSegment{"c", 1, {begin, end}, {}};
+  };
+  expect_refused(map.add_segment({"a/b", 1, testing::kShortLine, {}}),
+                 ": 'a/b' is no segment's id");
+  expect_refused(map.add_segment({"c", 1, testing::kShortLine, {"d", "e/f"}}),
+                 ", segment c: the successor 'e/f' is no segment's id");
+  for (const double length_m : {nan, -1.0, 0.0, 1e8 + 1}) {
+    expect_refused(map.add_segment({"c", length_m, testing::kShortLine, {}}),
+                   ", segment c: the length is not above 0 and at most 100000 km (FORMAT.md 2.5)");
+  }
+  expect_refused(map.add_segment({"c", 1, {begin}, {}}),
+                 ", segment c: a line has two vertices or more (FORMAT.md 2.5)");
+  for (const StoredVertex& end : {StoredVertex{nan, 8, 100, 1},
+                                  {90.01, 8, 100, 1},
+                                  {49, 180.01, 100, 1},
+                                  {49, -180.01, 100, 1}}) {
+    expect_refused(map.add_segment(with(end)),
+                   ", segment c, vertex 1: the position is not in degrees of the Earth (FORMAT.md "
+                   "2.5)");
+  }
+  for (const double altitude_m : {nan, 100001.0, -100001.0}) {
+    expect_refused(map.add_segment(with({49, 8, altitude_m, 1})),
+                   ", segment c, vertex 1: the altitude is more than 100 km (FORMAT.md 2.5)");
+  }
+  for (const double along_m : {nan, -0.5, 1e8 + 1}) {
+    expect_refused(map.add_segment(with({49, 8, 100, along_m})),
+                   ", segment c, vertex 1: the along does not ascend from 0 on (FORMAT.md 2.5)");
+  }
+
+  const Bytes frame = frame_of(10, 1);
+  for (const AlongRange& along : {AlongRange{2, 1}, {nan, 1}, {0, nan}, {0, 1e8 + 1}}) {
+    expect_refused(map.add_tile("east", "walls", 8, along, 1, frame),
+                   ", segment east, layer walls, tile 8: the along range does not go from less to "
+                   "more (FORMAT.md "
+                   "2.6)");
+  }
+  expect_refused(map.add_tile("east", "walls", 8, {0, 1}, 1, {}),
+                 ", segment east, layer walls, tile 8: a tile without bytes (FORMAT.md 2.6)");
+  expect_refused(map.add_tile("east", "walls", 8, {0, 1}, std::uint64_t{1} << 63U, frame),
+                 ", segment east, layer walls, tile 8: a tile of too many items (FORMAT.md 2.6)");
+  expect_refused(map.add_cell("walls", kCellRows * kCellColumns, 1, frame),
+                 ": the grid has no cell 2592000000");
+  expect_refused(map.add_cell("walls", 77, 1, {}),
+                 ", layer walls, cell 77: a tile without bytes (FORMAT.md 2.6)");
   const auto build = map.finish();
   ASSERT_TRUE(build.ok()) << build.error().line();
   EXPECT_EQ(*build, testing::write_example(folder_ / "same.map"));
@@ -185,7 +241,7 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
 TEST_F(MapWriterTest, AfterAnErrorOfSqliteThereIsNoMap) {
   MapWriter map = writer();
   testing::add_example(map);
-  const Status twice = map.add_tile("east", "walls", 7, {0, 1}, 1, {});
+  const Status twice = map.add_tile("east", "walls", 7, {0, 1}, 1, frame_of(9, 7));
   ASSERT_FALSE(twice.ok());
   EXPECT_EQ(twice.error().code, ErrorCode::invalid_input);
   EXPECT_THAT(twice.error().line(), HasSubstr(file_.string() + ": UNIQUE constraint failed"));
@@ -200,7 +256,7 @@ TEST_F(MapWriterTest, ACellNeedsItsLayerAndIsThereOnce) {
   for (const std::string layer : {"nowhere", "walls"}) {
     MapWriter map = writer();
     testing::add_example(map);
-    const Status status = map.add_cell(layer, testing::kCells[0], 1, {});
+    const Status status = map.add_cell(layer, testing::kCells[0], 1, frame_of(9, 7));
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
     EXPECT_THAT(status.error().line(), HasSubstr("constraint failed"));
@@ -210,8 +266,8 @@ TEST_F(MapWriterTest, ACellNeedsItsLayerAndIsThereOnce) {
 TEST_F(MapWriterTest, TheBoundsAreAroundTheCellsToo) {
   MapWriter map = writer();
   ASSERT_TRUE(map.add_layer("walls", "{}").ok());
-  ASSERT_TRUE(map.add_cell("walls", GridCell::at(49.101, 8.501).number(), 0, {}).ok());
-  ASSERT_TRUE(map.add_cell("walls", GridCell::at(49.106, 8.491).number(), 0, {}).ok());
+  ASSERT_TRUE(map.add_cell("walls", GridCell::at(49.101, 8.501).number(), 0, frame_of(9, 1)).ok());
+  ASSERT_TRUE(map.add_cell("walls", GridCell::at(49.106, 8.491).number(), 0, frame_of(9, 2)).ok());
   ASSERT_TRUE(map.finish().ok());
   const auto reader = MapReader::open(file_);
   ASSERT_TRUE(reader.ok()) << reader.error().line();
@@ -225,7 +281,7 @@ TEST_F(MapWriterTest, TheBoundsAreAroundTheCellsToo) {
 TEST_F(MapWriterTest, ATileNeedsItsSegmentAndItsLayer) {
   MapWriter map = writer();
   testing::add_example(map);
-  const Status status = map.add_tile("nowhere", "walls", 0, {0, 1}, 1, {});
+  const Status status = map.add_tile("nowhere", "walls", 0, {0, 1}, 1, frame_of(9, 7));
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
   EXPECT_THAT(status.error().line(), HasSubstr("FOREIGN KEY constraint failed"));
@@ -235,12 +291,12 @@ TEST_F(MapWriterTest, NamesAFolderThatIsNotThere) {
   const auto writer = MapWriter::create(folder_ / "none" / "town.map");
   ASSERT_FALSE(writer.ok());
   EXPECT_EQ(writer.error().code, ErrorCode::io);
-  EXPECT_THAT(writer.error().line(), HasSubstr("none/town.map: unable to open database file"));
+  EXPECT_THAT(writer.error().line(), HasSubstr("none/town.map: there is no folder"));
 }
 
 TEST_F(MapWriterTest, NamesAPlaceThatCannotBeTaken) {
-  fs::create_directories(file_ / "full");
   MapWriter map = writer();
+  fs::create_directories(file_ / "full");
   const auto build = map.finish();
   ASSERT_FALSE(build.ok());
   EXPECT_EQ(build.error().code, ErrorCode::io);
