@@ -1,6 +1,7 @@
 option(MILEPOST_TESTS "Build the tests" ON)
 option(MILEPOST_BENCHMARKS "Build the benchmarks in tests/bench" ON)
 option(MILEPOST_WERROR "Treat warnings as errors" OFF)
+option(MILEPOST_FUZZ "Make the fuzz targets libFuzzer programs (clang)" OFF)
 set(MILEPOST_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined or thread")
 
 set(CMAKE_CXX_STANDARD 20)

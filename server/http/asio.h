@@ -7,12 +7,12 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
-#include <boost/system/error_code.hpp>
+
+#include "server/http/error_code.h"
 
 namespace milepost::server {
 
 namespace net = boost::asio;
-using boost::system::error_code;
 
 // A completion token: co_await gives the result, and the error goes into `error`.
 inline auto awaited(error_code& error) { return net::redirect_error(net::use_awaitable, error); }

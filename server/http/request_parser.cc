@@ -83,7 +83,7 @@ std::size_t RequestParser::take(std::string_view bytes) {
   while (!done() && !error && taken < bytes.size()) {
     const std::string_view rest = bytes.substr(taken);
     const bool in_head = !parser_.is_header_done();
-    const std::size_t used = parser_.put(net::buffer(rest.data(), rest.size()), error);
+    const std::size_t used = parser_.put(boost::asio::buffer(rest.data(), rest.size()), error);
     if (in_head) take_head(rest.substr(0, used), error);
     taken += used;
   }

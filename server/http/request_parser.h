@@ -9,7 +9,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
-#include "server/http/asio.h"
+#include "server/http/error_code.h"
 #include "server/request.h"
 #include "server/response.h"
 #include "server/settings.h"

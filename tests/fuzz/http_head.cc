@@ -1,0 +1,40 @@
+// The bytes of a connection: requests one after the other, in two pieces each.
+#include <cstdint>
+#include <string_view>
+
+#include "server/http/request_parser.h"
+#include "tests/fuzz/check.h"
+
+namespace {
+
+using namespace milepost;
+using namespace milepost::server;
+
+// A refused request has its answer, and an understood one has what handle() needs.
+void check_incoming(const Incoming& incoming) {
+  if (incoming.refusal) {
+    fuzz::check(!incoming.keep_alive && incoming.refusal->status >= 400);
+  } else {
+    fuzz::check(!incoming.request.method.empty() && !incoming.request.target.empty());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string_view connection(reinterpret_cast<const char*>(data), size);
+  while (!connection.empty()) {
+    RequestParser parser(ConnectionLimits{});
+    std::size_t taken = 0;
+    for (const std::size_t arrived : {connection.size() / 2, connection.size()}) {
+      if (!parser.done()) taken += parser.take(connection.substr(taken, arrived - taken));
+      fuzz::check(taken <= connection.size());
+      if (taken > arrived) break;
+    }
+    if (!parser.done()) return 0;  // it waits for more
+    check_incoming(parser.incoming());
+    if (!parser.incoming().keep_alive || taken == 0) return 0;
+    connection.remove_prefix(taken);
+  }
+  return 0;
+}

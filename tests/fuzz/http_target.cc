@@ -1,0 +1,55 @@
+// The server's answers to any request line: "METHOD\nIF-NONE-MATCH\nTARGET".
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "server/handle.h"
+#include "server/http/body_reader.h"
+#include "server/http/head.h"
+#include "tests/fuzz/check.h"
+#include "tests/server/test_map.h"
+
+namespace {
+
+using namespace milepost;
+using namespace milepost::server;
+
+const Catalog& catalog() {
+  static const TemporaryFolder folder;
+  static const std::shared_ptr<const Catalog> opened = [] {
+    write_town(folder.path() / "town.map");
+    return open_catalog(folder.path());
+  }();
+  return *opened;
+}
+
+// Takes the text up to the next line end.
+std::string next_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string line(text.substr(0, end));
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string_view text(reinterpret_cast<const char*>(data), size);
+  Request request;
+  request.method = next_line(text);
+  request.if_none_match = next_line(text);
+  request.target = std::string(text);
+  const Response response = handle(request, catalog());
+  fuzz::check(response.status >= 200 && response.status < 500);
+  const std::string head = head_of(response, 11, true);
+  fuzz::check(head.find("\r\n\r\n") == head.size() - 4);  // nothing of the request ends the head
+  std::uint64_t bytes = 0;
+  for (BodyReader reader(response, true); !reader.done();) {
+    const Result<ByteView> piece = reader.next();
+    fuzz::check(piece.ok());
+    bytes += piece->size();
+  }
+  fuzz::check(bytes == response.content_length());
+  return 0;
+}

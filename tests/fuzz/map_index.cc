@@ -1,0 +1,66 @@
+// A map file with any bytes: everything that a server or a client reads of it.
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include "schema/store/map_store.h"
+#include "schema/tile/codec.h"
+#include "server/catalog/served_map.h"
+#include "tests/fuzz/check.h"
+
+namespace {
+
+using namespace milepost;
+namespace fs = std::filesystem;
+
+// In memory where the system has a file system there.
+const fs::path& map_file() {
+  static const fs::path file = [] {
+    const fs::path memory = "/dev/shm";
+    const fs::path folder = fs::is_directory(memory) ? memory : fs::temp_directory_path();
+    return folder / ("milepost-fuzz-" + std::to_string(::getpid()) + ".map");
+  }();
+  static const struct Remover {
+    ~Remover() {
+      std::error_code ignored;
+      fs::remove(map_file(), ignored);
+    }
+  } remover;
+  return file;
+}
+
+void read_segment(const MapReader& map, const std::string& id) {
+  static_cast<void>(map.segment(id));
+  for (const auto& [layer, parameters] : map.layers()) {
+    const Result<std::vector<TileEntry>> index = map.tile_index(id, layer);
+    static_cast<void>(map.tiles_in(id, layer, {0, 100}));
+    if (!index) continue;
+    for (const TileEntry& entry : *index) static_cast<void>(map.tile(id, layer, entry.index));
+  }
+}
+
+void read_cells(const MapReader& map, const std::string& layer) {
+  const Result<std::vector<CellEntry>> cells = map.cell_index(layer);
+  if (!cells) return;
+  for (const CellEntry& entry : *cells) {
+    fuzz::check(is_cell(entry.cell));
+    const Result<Bytes> frame = map.cell(layer, entry.cell);
+    if (frame) static_cast<void>(decode_walls(*frame));
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::ofstream(map_file(), std::ios::binary | std::ios::trunc)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  const Result<MapReader> map = MapReader::open(map_file());
+  if (!map) return 0;
+  for (const std::string& id : map->segment_ids()) read_segment(*map, id);
+  for (const auto& [layer, parameters] : map->layers()) read_cells(*map, layer);
+  static_cast<void>(map->verify());
+  static_cast<void>(server::ServedMap::open("fuzz", map_file(), 1));
+  return 0;
+}

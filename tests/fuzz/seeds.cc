@@ -1,0 +1,165 @@
+// Writes well-formed inputs for each fuzz target: FOLDER/TARGET/NAME.
+// usage: fuzz-seeds FOLDER
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "schema/feature/types.h"
+#include "schema/tile/codec.h"
+#include "schema/tile/frame.h"
+#include "tests/client/fetch/fake_map.h"
+#include "tests/schema/tile/example_landmarks.h"
+#include "tests/schema/tile/example_tile.h"
+#include "tests/server/test_map.h"
+
+namespace milepost {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SeedFolder {
+ public:
+  explicit SeedFolder(fs::path root) : root_(std::move(root)) {}
+
+  void write(const std::string& target, const std::string& name, std::string_view bytes) const {
+    fs::create_directories(root_ / target);
+    std::ofstream(root_ / target / name, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+
+  fs::path file(const std::string& target, const std::string& name) const {
+    fs::create_directories(root_ / target);
+    return root_ / target / name;
+  }
+
+ private:
+  fs::path root_;
+};
+
+void write_targets(const SeedFolder& seeds) {
+  const server::TemporaryFolder folder;
+  const std::string build = server::write_town(folder.path() / "town.map").build;
+  const std::string root = "/v1/maps/town/builds/" + build;
+  int number = 0;
+  for (const std::string& target :
+       {std::string("/"), std::string("/healthz"), std::string("/openapi.yaml"),
+        std::string("/v1/maps"), std::string("/v1/maps/town"),
+        std::string("/v1/segments?near=49.0001,8.0001&radius_m=50"), root + "/segments/s1",
+        root + "/segments/s1/tiles?layer=tracklets&from_m=10&to_m=120",
+        root + "/segments/s1/tiles/tracklets/2", root + "/areas",
+        root + "/areas/walls?bbox=8,49,8.01,49.01",
+        root + "/areas/walls/" + std::to_string(server::kTownCells[0]),
+        std::string("http://host/v1/maps?%61=%20+")}) {
+    seeds.write("http_target", std::to_string(number++), "GET\n\n" + target);
+  }
+  seeds.write("http_target", "conditional",
+              "HEAD\n\"" + build + "\", W/\"x\", *\n" + root + "/areas");
+  seeds.write("http_target", "method", "POST\n\n/v1/maps");
+}
+
+void write_heads(const SeedFolder& seeds) {
+  const std::string get = "GET /v1/maps HTTP/1.1\r\nHost: h\r\n";
+  seeds.write("http_head", "two", get + "\r\n" + get + "Connection: close\r\n\r\n");
+  seeds.write("http_head", "length", get + "Content-Length: 3\r\n\r\nabc" + get + "\r\n");
+  seeds.write(
+      "http_head", "chunked",
+      get + "Transfer-Encoding: chunked\r\n\r\n3;x=y\r\nabc\r\n0\r\nT: r\r\n\r\n" + get + "\r\n");
+  seeds.write("http_head", "both",
+              get + "Transfer-Encoding: chunked\r\nContent-Length: 3\r\n\r\nabc");
+  seeds.write("http_head", "old", "HEAD / HTTP/1.0\r\nIf-None-Match: \"x\",\r\n W/\"y\"\r\n\r\n");
+}
+
+void write_footprints(const SeedFolder& seeds) {
+  const std::string ring = "[[[8.1,49.1],[8.2,49.1],[8.2,49.15],[8.1,49.1]]]";
+  const std::string polygon = R"({"type":"Polygon","coordinates":)" + ring + "}";
+  const std::string many = R"({"type":"MultiPolygon","coordinates":[)" + ring + "," + ring + "]}";
+  const std::string feature =
+      R"({"type":"Feature","properties":{"a":[1,null,true]},"geometry":)" + polygon + "}";
+  seeds.write("footprints", "collection",
+              R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":)"
+              R"("urn:ogc:def:crs:OGC:1.3:CRS84"}},"features":[)" +
+                  feature + "]}");
+  seeds.write("footprints", "geometries",
+              R"({"type":"GeometryCollection","geometries":[)" + polygon + "," + many + "]}");
+  seeds.write("footprints", "across",
+              R"({"type":"Polygon","coordinates":[[[179.99,-0.01],[180.01,-0.01],[-179.99,0.01],)"
+              R"([179.99,0.01],[179.99,-0.01]]]})");
+  seeds.write("footprints", "lines", feature + "\n" + feature + "\n");
+  seeds.write("footprints", "topology", R"({"type":"Topology","objects":{},"arcs":[]})");
+}
+
+void write_documents(const SeedFolder& seeds) {
+  const testing::FakeMap map;
+  seeds.write("documents", "catalog", "c" + map.catalog_document());
+  seeds.write("documents", "near", "n" + map.near_document());
+  seeds.write("documents", "map", "m" + map.map_document());
+  seeds.write("documents", "segment", "s" + map.segment_document());
+  seeds.write("documents", "areas", "a" + map.areas_document());
+  seeds.write("documents", "feature", "f" + to_json(FeatureParameters{}));
+  // A codebook whose bytes are all zero, in base64.
+  seeds.write("documents", "codebook",
+              R"(b{"step":0.02,"mean":")" + std::string(171, 'A') + R"(=","axes":")" +
+                  std::string(5462, 'A') + R"(=="})");
+}
+
+// A tile as its stored frame, and its content as target `tiles` takes it.
+void write_tile(const SeedFolder& seeds, char kind, const Bytes& frame) {
+  seeds.write("tiles", std::string("stored-") + kind,
+              std::string(1, static_cast<char>(kind - 'a' + 'A')) + std::string(as_text(frame)));
+  const Result<Bytes> content = expand_frame(frame);
+  seeds.write("tiles", std::string("content-") + kind,
+              std::string(1, kind) + std::string(as_text(*content)));
+}
+
+ObservationTile observations() {
+  Track track;
+  for (int i = 0; i < 3; ++i)
+    track.push_back({{100.0F, 50.0F, 4.0F + static_cast<float>(i)}, {}, 2.0 * i});
+  ObservedTracklet observed{testing::example_tile().tracklets.front(), track};
+  set_from_track(track, observed.tracklet);
+  return {"s", 0, ScaleModel::inverse_scale, {observed}};
+}
+
+FrameTile frames() {
+  DatabaseFrame frame{3, {{{10, 20, 5}}, {Descriptor{}}}, ImageDescriptor{0.5F}};
+  return {"s", 0, {frame}};
+}
+
+WallTile walls() {
+  const Wall wall{{49.0001, 8.0001}, {49.0002, 8.0003}, 0.4};
+  return tiles_of({wall, {wall.end, {49.0003, 8.0001}, 0.4}}).front();
+}
+
+void write_tiles(const SeedFolder& seeds) {
+  write_tile(seeds, 't', encode_tile(testing::example_tile()));
+  write_tile(seeds, 'l', encode_landmarks(testing::example_landmarks()));
+  write_tile(seeds, 'o', encode_observations(observations()));
+  write_tile(seeds, 'f', encode_frames(frames()));
+  write_tile(seeds, 'w', encode_walls(walls()));
+}
+
+void write_maps(const SeedFolder& seeds) {
+  server::write_town(seeds.file("map_index", "town"), 20);
+  server::write_walls(seeds.file("map_index", "walls"), {server::kTownCells[0]});
+}
+
+}  // namespace
+}  // namespace milepost
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: fuzz-seeds FOLDER\n";
+    return 2;
+  }
+  const milepost::SeedFolder seeds(argv[1]);
+  milepost::write_targets(seeds);
+  milepost::write_documents(seeds);
+  milepost::write_footprints(seeds);
+  milepost::write_heads(seeds);
+  milepost::write_tiles(seeds);
+  milepost::write_maps(seeds);
+  return 0;
+}

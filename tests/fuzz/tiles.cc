@@ -1,0 +1,60 @@
+// The tile decoders. The first byte chooses one. A capital gets the bytes as a stored frame; a
+// small letter gets them as its content, which zstd's checksum would otherwise shield.
+#include <cstdint>
+
+#include "schema/tile/codec.h"
+#include "schema/tile/table.h"
+#include "tests/fuzz/check.h"
+
+namespace {
+
+using namespace milepost;
+
+// A tile that is taken must be writable, and be taken again.
+template <class Tile>
+void read(ByteView bytes, Result<Tile> (*from_table)(ByteView), Bytes (*table_from)(const Tile&)) {
+  const Bytes table(bytes.begin(), bytes.end());  // aligned
+  const Result<Tile> tile = from_table(table);
+  if (!tile) return fuzz::check(tile.error().code == ErrorCode::corrupt);
+  fuzz::check(from_table(table_from(*tile)).ok());
+}
+
+template <class Tile>
+void decode(ByteView bytes, Result<Tile> (*decode_frame)(ByteView)) {
+  const Result<Tile> tile = decode_frame(bytes);
+  fuzz::check(tile.ok() || tile.error().code == ErrorCode::corrupt);
+}
+
+void read_as(char kind, ByteView bytes) {
+  switch (kind) {
+    case 't':
+      return read(bytes, tile_from_table, table_from_tile);
+    case 'o':
+      return read(bytes, observations_from_table, table_from_observations);
+    case 'f':
+      return read(bytes, frames_from_table, table_from_frames);
+    case 'l':
+      return read(bytes, landmarks_from_table, table_from_landmarks);
+    case 'w':
+      return read(bytes, walls_from_table, table_from_walls);
+    case 'T':
+      return decode(bytes, decode_tile);
+    case 'O':
+      return decode(bytes, decode_observations);
+    case 'F':
+      return decode(bytes, decode_frames);
+    case 'L':
+      return decode(bytes, decode_landmarks);
+    case 'W':
+      return decode(bytes, decode_walls);
+    default:
+      static_cast<void>(stored_frame_length(bytes));
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 0) read_as(static_cast<char>(data[0]), {data + 1, size - 1});
+  return 0;
+}
