@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "schema/base/digest.h"
+#include "schema/store/map_checks.h"
 #include "schema/store/map_rows.h"
 
 namespace milepost {
@@ -15,7 +16,10 @@ constexpr const char* kIndex =
 constexpr const char* kCell = "SELECT digest, frame FROM cells WHERE layer = ? AND number = ?";
 
 bool is_sound(const Rows& row) {
-  return row->integer(1) >= 0 && row->integer(2) >= 0 && is_digest(row->text(3));
+  return row->integer(1) >= 0 && row->integer(2) >= 0 && is_digest(row->text(3)) &&
+         check_frame(static_cast<std::uint64_t>(row->integer(2)),
+                     static_cast<std::uint64_t>(row->integer(1)), "")
+             .ok();
 }
 
 CellEntry entry_at(const Rows& row) {

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "schema/base/digest.h"
 #include "schema/store/map_cells.h"
+#include "schema/store/map_checks.h"
 #include "schema/store/map_content.h"
 #include "schema/store/map_rows.h"
 #include "schema/store/map_store.h"
@@ -69,8 +71,16 @@ TileEntry entry_at(const Rows& row) {
 
 bool is_sound(const Rows& row) {
   return row->integer(0) >= 0 && row->integer(0) <= std::numeric_limits<std::uint32_t>::max() &&
-         row->real(1) <= row->real(2) && row->integer(3) >= 0 && row->integer(4) >= 0 &&
-         is_digest(row->text(5));
+         row->integer(3) >= 0 && row->integer(4) >= 0 && is_digest(row->text(5)) &&
+         check_along({row->real(1), row->real(2)}, "").ok() &&
+         check_frame(static_cast<std::uint64_t>(row->integer(4)),
+                     static_cast<std::uint64_t>(row->integer(3)), "")
+             .ok();
+}
+
+// What breaks a check is the file's fault here, not the caller's.
+Status as_corrupt(const Status& checked) {
+  return checked.ok() ? checked : corrupt(checked.error().where, checked.error().what);
 }
 
 }  // namespace
@@ -127,20 +137,29 @@ struct MapReader::Impl {
     if (status.ok()) status = read_number("south_deg", bounds.south_deg);
     if (status.ok()) status = read_number("east_deg", bounds.east_deg);
     if (status.ok()) status = read_number("north_deg", bounds.north_deg);
+    const bool is_box = std::abs(bounds.west_deg) <= 180 && std::abs(bounds.east_deg) <= 180 &&
+                        std::abs(bounds.south_deg) <= 90 && std::abs(bounds.north_deg) <= 90;
+    if (status.ok() && !is_box) status = corrupt(place(), "the map's bounds are not in degrees");
     return status;
   }
 
   Status read_lists() {
     Status status =
         for_each_row(database, "SELECT name, parameters FROM layers", [&](const Rows& row) {
+          if (!is_layer_name(row->text(0))) return named_wrongly("layer", row->text(0));
           layers[row->text(0)] = row->text(1);
           return ok_status();
         });
     if (!status.ok()) return status;
     return for_each_row(database, "SELECT id FROM segments ORDER BY id", [&](const Rows& row) {
+      if (!is_segment_id(row->text(0))) return named_wrongly("segment", row->text(0));
       segment_ids.push_back(row->text(0));
       return ok_status();
     });
+  }
+
+  Status named_wrongly(const std::string& what, const std::string& name) const {
+    return corrupt(place(), "the name of a " + what + ", '" + name + "', is no id");
   }
 
   Error no_segment(const std::string& id) const {
@@ -241,6 +260,7 @@ Result<StoredSegment> MapReader::segment(const std::string& id) const {
   }
   Status status = impl_->read_vertices(segment);
   if (status.ok()) status = impl_->read_successors(segment);
+  if (status.ok()) status = as_corrupt(check_segment(segment, impl_->place()));
   if (!status.ok()) return status.error();
   return segment;
 }
