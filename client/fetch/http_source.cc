@@ -101,7 +101,7 @@ class HttpSource : public MapSource {
   HttpSource(std::string base_url, const HttpSourceSettings& settings, HttpSourceParts parts,
              std::unique_ptr<TileCache> cache)
       : base_url_(std::move(base_url)),
-        now_s_(std::move(parts.now_s)),
+        steady_s_(std::move(parts.steady_s)),
         cache_(std::move(cache)),
         requests_(std::move(parts.transport),
                   {.attempts = settings.attempts, .sleep = std::move(parts.sleep)}),
@@ -263,13 +263,13 @@ class HttpSource : public MapSource {
       const std::string& url, const std::function<std::vector<Item>()>& known_items,
       const std::function<Result<std::vector<Item>>(const std::string& text)>& parse) {
     std::vector<Item> known;
-    if (now_s_() < server_away_until_s_) known = known_items();
+    if (steady_s_() < server_away_until_s_) known = known_items();
     if (!known.empty()) return known;
     std::string text;
     const Status fetched = with_retries(requests_.retry(), [&] {
       Attempt attempt = requests_.try_document(url, text);
       if (is_unavailable(attempt.status)) {
-        server_away_until_s_ = now_s_() + kServerAway_s;
+        server_away_until_s_ = steady_s_() + kServerAway_s;
         known = known_items();
       }
       return known.empty() ? attempt : Attempt{};
@@ -377,7 +377,7 @@ class HttpSource : public MapSource {
   }
 
   const std::string base_url_;
-  const std::function<std::int64_t()> now_s_;
+  const std::function<std::int64_t()> steady_s_;
   const std::unique_ptr<TileCache> cache_;
   ServerRequests requests_;
   FrameFetcher fetcher_;
@@ -393,7 +393,8 @@ Result<std::unique_ptr<MapSource>> make_http_source(const HttpSourceSettings& se
                                                     HttpSourceParts parts) {
   Result<std::string> base_url = checked_server_url(settings.server_url);
   if (!base_url.ok()) return base_url.error();
-  auto cache = TileCache::open({settings.cache_directory, settings.cache_limit_bytes, parts.now_s});
+  auto cache =
+      TileCache::open({settings.cache_directory, settings.cache_limit_bytes, parts.steady_s});
   if (!cache.ok()) return cache.error();
   return std::unique_ptr<MapSource>(std::make_unique<HttpSource>(
       std::move(base_url).value(), settings, std::move(parts), std::move(cache).value()));
@@ -404,10 +405,6 @@ Result<std::unique_ptr<MapSource>> open_http_source(const HttpSourceSettings& se
   parts.transport = make_curl_transport({settings.connect_timeout_s, settings.stall_timeout_s});
   parts.sleep = [](double pause_s) {
     std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
-  };
-  parts.now_s = [] {
-    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
-    return std::int64_t{std::chrono::duration_cast<std::chrono::seconds>(since_1970).count()};
   };
   return make_http_source(settings, std::move(parts));
 }

@@ -31,7 +31,7 @@ class MisbehavingServerTest : public ::testing::Test {
     HttpSourceParts parts;
     parts.transport = make_curl_transport({5, 10});
     parts.sleep = [this](double pause_s) { pauses_s_.push_back(pause_s); };
-    parts.now_s = [this] { return now_s_.load(); };
+    parts.steady_s = [this] { return now_s_.load(); };
     auto source = make_http_source(settings, std::move(parts));
     EXPECT_TRUE(source.ok());
     return std::move(source).value();
