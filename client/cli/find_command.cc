@@ -204,7 +204,7 @@ void add_options(CLI::App& app, Options& options) {
              "Its heading then, clockwise from north, within 10 degrees", -360, 360)
       ->needs(start);
   app.add_option("--method", options.method,
-                 "orientations: orientations of walls by bearing, as published;\n"
+                 "orientations: orientations of walls by bearing, the aerial paper's importance;\n"
                  "combined: these, and points that the moving camera saw, looked for on the walls\n"
                  "(default)")
       ->check(CLI::IsMember(kMethods))

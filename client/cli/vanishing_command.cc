@@ -86,7 +86,7 @@ int run_vanishing(const std::string& program, std::vector<std::string> words) {
       "in pixels, the longest first, index of its direction from 0, or -1 for a line of none.\n"
       "Methods: evidence (lines vote by their own noise, then all directions are refined together) "
       "and\n"
-      "clustering (subtractive clustering of where lines meet, as published).\n"
+      "clustering (the aerial paper's: subtractive clustering of where lines meet).\n"
       "Images have the camera's size and no lens distortion.\n"
       "Example: milepost-client vanishing --camera drives/tuesday/drive.json --out found.json \\\n"
       "           drives/tuesday/frames/*.jpg",

@@ -20,9 +20,9 @@ bool is_name(std::string_view text) {
 }
 
 Json JsonFields::parsed(std::string_view text) {
-  Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (json.is_object()) return json;
-  fail("the document is no JSON object");
+  Result<Json> json = read_ordered_json(text);
+  if (json && json->is_object()) return std::move(*json);
+  fail(json ? "the document is no JSON object" : "the document: " + json.error().what);
   return Json::object();
 }
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
+#include "schema/base/json.h"
 #include "schema/base/result.h"
 
 namespace milepost {
@@ -22,7 +21,8 @@ class JsonFields {
   // `where` (a URL or a file) goes into the error.
   explicit JsonFields(std::string where) : where_(std::move(where)) {}
 
-  // The document of a text, which must be a JSON object; an empty object otherwise.
+  // The document of a text, which must be a JSON object within JsonLimits; an empty object
+  // otherwise.
   Json parsed(std::string_view text);
   // A finite number in [min, max].
   double number(const Json& object, const char* key, double min, double max);

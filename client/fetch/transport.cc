@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "schema/base/json.h"
 #include "schema/command/version.h"
 
 namespace milepost {
@@ -93,10 +92,10 @@ std::size_t on_body(char* data, std::size_t /*always_one*/, std::size_t size, vo
 
 // The "detail" of a problem+json body; empty if there is none.
 std::string detail_of(const std::string& body) {
-  const auto json = nlohmann::json::parse(body, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) return "";
-  const auto detail = json.find("detail");
-  if (detail == json.end() || !detail->is_string()) return "";
+  const Result<nlohmann::json> json = read_json(body);
+  if (!json || !json->is_object()) return "";
+  const auto detail = json->find("detail");
+  if (detail == json->end() || !detail->is_string()) return "";
   std::string text = detail->get<std::string>();
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');

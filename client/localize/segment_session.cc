@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
+#include "schema/base/json.h"
 
 namespace milepost {
 namespace {
@@ -24,8 +24,10 @@ Result<LayerParameters> parameters_of_layer(const MapDescription& map, const std
     return Error{ErrorCode::corrupt, "map '" + map.version.map + "', layer '" + layer + "'", what,
                  "build the map anew"};
   };
-  const auto json = nlohmann::json::parse(found->second, nullptr, false);
-  if (!json.is_object()) return corrupt("its parameters are no JSON object");
+  const Result<nlohmann::json> parsed = read_json(found->second);
+  if (!parsed) return corrupt("its parameters: " + parsed.error().what);
+  if (!parsed->is_object()) return corrupt("its parameters are no JSON object");
+  const nlohmann::json& json = *parsed;
   const auto named = json.value("items", nlohmann::json());
   const auto items = layer_items_named(named.is_string() ? named.get<std::string>() : "");
   if (!items) return corrupt("its items are unknown");

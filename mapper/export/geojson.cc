@@ -3,8 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "schema/base/json.h"
 #include "schema/tile/codec.h"
 
 namespace milepost {
@@ -51,9 +50,10 @@ std::string layers_of(const MapReader& map) {
 
 // What the layer's tiles hold, as its parameters name it (FORMAT.md 2.4).
 std::string items_of(const std::string& parameters) {
-  const Json json = Json::parse(parameters, nullptr, false);
-  const auto items = json.is_object() ? json.find("items") : json.end();
-  return items != json.end() && items->is_string() ? items->get<std::string>() : "";
+  const Result<Json> json = read_ordered_json(parameters);
+  if (!json || !json->is_object()) return "";
+  const auto items = json->find("items");
+  return items != json->end() && items->is_string() ? items->get<std::string>() : "";
 }
 
 Status check_holds_walls(const MapReader& map, const std::string& layer) {

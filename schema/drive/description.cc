@@ -6,9 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "schema/base/file.h"
+#include "schema/base/json.h"
 #include "schema/drive/checks.h"
 
 namespace milepost {
@@ -130,14 +129,15 @@ GeoPoint read_origin(KeyReader& keys, const Json& root) {
 Result<Json> parse(const fs::path& file) {
   const Result<std::string> text = read_text_file(file);
   if (!text) return text.error();
-  try {
-    Json root = Json::parse(*text);
-    if (root.is_object()) return root;
-    return Error{ErrorCode::invalid_input, file.string(), "is not a JSON object",
-                 "write it as the drive format describes"};
-  } catch (const Json::exception& error) {
-    return Error{ErrorCode::invalid_input, file.string(), message_of(error), "correct the JSON"};
+  Result<Json> root = read_json(*text);
+  if (!root) {
+    const Error& error = root.error();
+    const std::string place = error.where.empty() ? "" : ", " + error.where;
+    return Error{ErrorCode::invalid_input, file.string() + place, error.what, error.mend};
   }
+  if (root->is_object()) return root;
+  return Error{ErrorCode::invalid_input, file.string(), "is not a JSON object",
+               "write it as the drive format describes"};
 }
 
 }  // namespace

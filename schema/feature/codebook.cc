@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include <nlohmann/json.hpp>
-
+#include "schema/base/json.h"
 #include "schema/feature/root_sift.h"
 
 namespace milepost {
@@ -89,7 +88,9 @@ std::string Codebook::to_json() const {
 }
 
 Result<Codebook> Codebook::from_json(const std::string& text) {
-  nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
+  Result<nlohmann::json> json = read_json(text);
+  if (!json) return corrupt_codebook(json.error().what);
+  nlohmann::json& object = *json;
   if (!object.is_object()) return corrupt_codebook("it is not a JSON object");
   const auto step = object.find("step");
   if (step == object.end() || !step->is_number()) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
+#include "schema/base/json.h"
 
 namespace milepost {
 namespace {
@@ -40,7 +40,9 @@ std::string to_json(const FeatureParameters& parameters) {
 }
 
 Result<FeatureParameters> feature_parameters_from_json(const std::string& text) {
-  nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
+  Result<nlohmann::json> json = read_json(text);
+  if (!json) return corrupt_parameters(json.error().what);
+  nlohmann::json& object = *json;
   if (!object.is_object()) return corrupt_parameters("they are not a JSON object");
   if (!object.contains("kind") || object["kind"] != "sift") {
     return corrupt_parameters("their kind is not 'sift'");

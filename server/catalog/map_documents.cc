@@ -1,6 +1,6 @@
 #include "server/catalog/map_documents.h"
 
-#include <nlohmann/json.hpp>
+#include "schema/base/json.h"
 
 namespace milepost::server {
 namespace {
@@ -8,12 +8,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Result<Json> parsed_object(const std::string& text, const std::string& where) {
-  Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) {
-    return Error{ErrorCode::corrupt, where, "the parameters are no JSON object",
-                 "build the map anew"};
-  }
-  return json;
+  Result<Json> json = read_ordered_json(text);
+  if (!json) return Error{ErrorCode::corrupt, where, json.error().what, "build the map anew"};
+  if (json->is_object()) return json;
+  return Error{ErrorCode::corrupt, where, "the parameters are no JSON object",
+               "build the map anew"};
 }
 
 Json bounds_json(const Bounds& bounds) {

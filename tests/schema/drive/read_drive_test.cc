@@ -183,7 +183,16 @@ TEST(ReadDriveRefuses, ADescriptionThatIsNoObject) {
 TEST(ReadDriveRefuses, AnEmptyDescription) {
   const DriveFolder folder;
   folder.write("drive.json", "");
-  EXPECT_THAT(refusal(folder), StartsWith(folder.file("drive.json") + ": parse error at line 1"));
+  EXPECT_THAT(refusal(folder),
+              StartsWith(folder.file("drive.json") + ", byte 1: this is not JSON (parse error"));
+}
+
+TEST(ReadDriveRefuses, ADescriptionThatIsNestedDeep) {
+  const DriveFolder folder;
+  folder.write("drive.json",
+               R"({"name": )" + std::string(100'000, '[') + std::string(100'000, ']') + "}");
+  EXPECT_THAT(refusal(folder),
+              StartsWith(folder.file("drive.json") + ": it is nested more than 32 deep"));
 }
 
 // trajectory.csv; each case replaces one line

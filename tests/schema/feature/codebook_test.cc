@@ -216,7 +216,7 @@ void expect_refused_with(const char* key, const Value& value, const std::string&
 
 TEST(Codebook, IsRefusedWhereItIsNone) {
   ASSERT_TRUE(Codebook::from_json(sound().dump()).ok());
-  EXPECT_THAT(Codebook::from_json("{").error().line(), HasSubstr("not a JSON object"));
+  EXPECT_THAT(Codebook::from_json("{").error().line(), HasSubstr("this is not JSON"));
   expect_refused({1, 2}, "it is not a JSON object");
   for (const char* key : {"step", "mean", "axes"}) {
     nlohmann::json object = sound();

@@ -26,6 +26,9 @@ void expect_refused(const std::string& text, const std::string& why) {
 
 TEST(FeatureParameters, OfAnotherExtractorAreRefused) {
   expect_refused("[1]", "not a JSON object");
+  expect_refused("{", "this is not JSON");
+  expect_refused(R"({"kind":)" + std::string(100'000, '[') + std::string(100'000, ']') + "}",
+                 "nested more than 32 deep");
   expect_refused(R"({"kind":"orb"})", "kind");
   const std::string rest =
       R"("octave_layers":3,"contrast_threshold":0.04,"edge_threshold":10,"sigma":1.6})";
