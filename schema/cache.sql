@@ -1,33 +1,43 @@
 -- The tables of the client's cache. The library runs this very text to make one.
--- Nothing in it is precious: what is missing or damaged is fetched again.
+-- Nothing in it is precious: what is missing or damaged is fetched again. A file of another layout
+-- is set aside as a damaged one is, and a new one is begun.
 
 PRAGMA application_id = 1297108785;  -- 0x4D504F31, "MPO1"
-PRAGMA user_version = 1;             -- of this layout
+PRAGMA user_version = 2;             -- of this layout; 1 had times of the clock for uses
 
 -- Tiles and cells as the server stores them, and the documents that tell which there are.
 -- A cell has segment '' and its number in the grid. A document has layer '': a segment's has number
 -- 0; the map's has segment '' and number 0; the index of the map's cells has segment '' and number 1.
 CREATE TABLE entries (
-  id         INTEGER PRIMARY KEY,
-  map        TEXT NOT NULL,
-  build      TEXT NOT NULL,
-  segment    TEXT NOT NULL,
-  layer      TEXT NOT NULL,
-  number     INTEGER NOT NULL,   -- the tile's index, or the cell's number
-  digest     TEXT NOT NULL,      -- of the content, checked whenever it is read
-  bytes      INTEGER NOT NULL,   -- length of the content
-  last_use_s INTEGER NOT NULL,   -- since 1970
-  content    BLOB NOT NULL,
+  id       INTEGER PRIMARY KEY,
+  map      TEXT NOT NULL,
+  build    TEXT NOT NULL,
+  segment  TEXT NOT NULL,
+  layer    TEXT NOT NULL,
+  number   INTEGER NOT NULL,   -- the tile's index, or the cell's number
+  digest   TEXT NOT NULL,      -- of the content, checked whenever it is read
+  bytes    INTEGER NOT NULL,   -- length of the content
+  last_use INTEGER NOT NULL,   -- uses are numbered: each gets one more than the greatest here
+  content  BLOB NOT NULL,
   UNIQUE (map, build, segment, layer, number)
 ) STRICT;
 
--- Oldest use first; a document outlives the tiles that were last used in the same second.
-CREATE INDEX entries_by_use ON entries (last_use_s, layer = '', id);
+-- The greatest number of a use. No clock is asked: a vehicle's may be wrong by decades.
+CREATE INDEX entries_by_use ON entries (last_use);
+
+-- What goes first: the least recently used entry, where a document counts as used 1000 uses later.
+-- So it outlives the tiles that it leads to, whose uses follow its own.
+CREATE INDEX entries_by_eviction ON entries (last_use + 1000 * (layer = ''));
+
+-- The sizes, to count the bytes of all entries without reading these.
+CREATE INDEX entries_by_size ON entries (bytes);
 
 -- The documents apart from the tiles, to find maps and segments when no server answers.
-CREATE INDEX documents ON entries (map, last_use_s) WHERE layer = '';
+CREATE INDEX documents ON entries (map, last_use) WHERE layer = '';
 
 -- The bytes of all entries, kept by the triggers, so that the limit is checked without counting.
+-- Counted anew when the file is opened, after every 64 entries removed, and when it is no number
+-- that can be.
 CREATE TABLE total (bytes INTEGER NOT NULL) STRICT;
 INSERT INTO total VALUES (0);
 

@@ -1,9 +1,5 @@
 #include "client/cache/cache_file.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <string>
@@ -11,6 +7,7 @@
 #include <utility>
 
 #include "client/cache/cache_sql.h"
+#include "client/cache/folder_lock.h"
 
 namespace milepost {
 namespace {
@@ -20,32 +17,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPrefix = "tiles-";
 constexpr std::string_view kSuffix = ".sqlite";
 constexpr std::string_view kDamaged = ".damaged";
+constexpr int kLastGeneration = 999999;  // a file with a greater number is not the cache's
 constexpr std::int64_t kApplicationId = 1297108785;  // as in cache.sql
-constexpr std::int64_t kLayoutVersion = 1;           // as in cache.sql
-
-// One process at a time makes a file or sets one aside. The lock ends with the process.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder)
-      : descriptor_(::open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)),
-        held_(descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) == 0) {}
-  ~FolderLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
-  bool held() const { return held_; }
-
- private:
-  int descriptor_;
-  bool held_;
-};
-
-Error lock_error(const fs::path& folder) {
-  return {ErrorCode::io, folder.string(), "the cache folder cannot be written to",
-          "check its permissions and the disk's space, or name another folder"};
-}
+constexpr std::int64_t kLayoutVersion = 2;           // as in cache.sql
 
 fs::path file_of(const fs::path& folder, int generation) {
   return folder / (std::string(kPrefix) + std::to_string(generation) + std::string(kSuffix));
@@ -60,24 +34,18 @@ int generation_of(std::string_view name) {
   const auto [end, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), generation);
   const bool whole = error == std::errc() && end == digits.data() + digits.size();
-  return whole && generation > 0 ? generation : 0;
+  return whole && generation > 0 && generation <= kLastGeneration ? generation : 0;
 }
 
+// 0 if there is none.
 int newest_generation(const fs::path& folder) {
   int newest = 0;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (!entry.is_regular_file(ignored)) continue;
     newest = std::max(newest, generation_of(entry.path().filename().string()));
   }
   return newest;
-}
-
-Result<std::int64_t> single_integer(const sqlite::Database& database, std::string_view query) {
-  auto statement = database.prepare(query);
-  if (!statement.ok()) return statement.error();
-  const Result<bool> row = statement->step();
-  if (!row.ok()) return row.error();
-  return *row ? statement->integer(0) : 0;
 }
 
 Status make_tables(sqlite::Database& database) {
@@ -88,12 +56,12 @@ Status make_tables(sqlite::Database& database) {
 
 // Makes the tables in an empty file; a file with other content is corrupt to us.
 Status prepare_tables(sqlite::Database& database) {
-  const auto tables = single_integer(database, "SELECT count(*) FROM sqlite_schema");
+  const auto tables = database.integer("SELECT count(*) FROM sqlite_schema");
   if (!tables.ok()) return tables.error();
   if (*tables == 0) return make_tables(database);
-  const auto id = single_integer(database, "PRAGMA application_id");
+  const auto id = database.integer("PRAGMA application_id");
   if (!id.ok()) return id.error();
-  const auto version = single_integer(database, "PRAGMA user_version");
+  const auto version = database.integer("PRAGMA user_version");
   if (!version.ok()) return version.error();
   if (*id == kApplicationId && *version == kLayoutVersion) return ok_status();
   return Error{ErrorCode::corrupt, database.file().string(), "this is no cache of this version",
@@ -133,9 +101,18 @@ void set_aside(const fs::path& folder, int generation) {
   fs::remove(file + "-shm", ignored);
 }
 
+// The first one after `generation` whose name is free; after the last generation comes the first.
+int free_generation_after(const fs::path& folder, int generation) {
+  std::error_code ignored;
+  do {
+    generation = generation < kLastGeneration ? generation + 1 : 1;
+  } while (fs::exists(file_of(folder, generation), ignored));
+  return generation;
+}
+
 // REQUIRES: the folder's lock is held.
 Result<CacheFile> make_next(const fs::path& folder, int damaged) {
-  auto next = open_generation(folder, damaged + 1);
+  auto next = open_generation(folder, free_generation_after(folder, damaged));
   if (next.ok()) set_aside(folder, damaged);
   return next;
 }
@@ -143,19 +120,21 @@ Result<CacheFile> make_next(const fs::path& folder, int damaged) {
 }  // namespace
 
 Result<CacheFile> open_cache_file(const fs::path& folder) {
-  const FolderLock lock(folder);
-  if (!lock.held()) return lock_error(folder);
-  const int newest = std::max(newest_generation(folder), 1);
+  const auto lock = FolderLock::take(folder);
+  if (!lock.ok()) return lock.error();
+  const int newest = newest_generation(folder);
+  if (newest == 0) return open_generation(folder, free_generation_after(folder, 0));
   auto opened = open_generation(folder, newest);
   const bool damaged = !opened.ok() && opened.error().code == ErrorCode::corrupt;
   return damaged ? make_next(folder, newest) : std::move(opened);
 }
 
 Result<CacheFile> open_after_damage(const fs::path& folder, int damaged) {
-  const FolderLock lock(folder);
-  if (!lock.held()) return lock_error(folder);
+  const auto lock = FolderLock::take(folder);
+  if (!lock.ok()) return lock.error();
   const int newest = newest_generation(folder);
-  return newest > damaged ? open_generation(folder, newest) : make_next(folder, damaged);
+  const bool made_already = newest != damaged && newest != 0;
+  return made_already ? open_generation(folder, newest) : make_next(folder, damaged);
 }
 
 }  // namespace milepost

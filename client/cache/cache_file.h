@@ -8,10 +8,10 @@
 
 namespace milepost {
 
-// The file in use is tiles-N.sqlite with the largest N. A damaged file is never renamed or replaced
-// under its own name while another process may have it open (SQLite would then mix up the old
-// file's journal and the new file's): its successor gets the next N, and all processes move on to
-// that one when they meet the damage.
+// The file in use is tiles-N.sqlite with the largest N of 1 to 999999. A damaged file is never
+// renamed or replaced under its own name while another process may have it open (SQLite would then
+// mix up the old file's journal and the new file's): its successor gets the next free N, and all
+// processes move on to that one when they meet the damage.
 struct CacheFile {
   sqlite::Database database;
   int generation = 0;

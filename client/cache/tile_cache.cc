@@ -5,161 +5,25 @@
 #include <system_error>
 #include <utility>
 
+#include "client/cache/cache_file.h"
 #include "schema/base/digest.h"
 
 namespace milepost {
 namespace {
 
-constexpr char kKeyIs[] =
-    " map = ?1 AND build = ?2 AND segment = ?3 AND layer = ?4 AND number = ?5";
+// For so long after a lock was refused, it is not asked for again: a vehicle would wait for it at
+// every frame.
+constexpr std::int64_t kPause_s = 10;
 
-// Rolls back unless it was committed.
-class Transaction {
- public:
-  explicit Transaction(sqlite::Database& database) : database_(database) {}
-  ~Transaction() {
-    if (open_) static_cast<void>(database_.execute("ROLLBACK"));
-  }
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
-
-  Status begin() {
-    Status begun = database_.execute("BEGIN IMMEDIATE");
-    open_ = begun.ok();
-    return begun;
-  }
-  Status commit() {
-    Status committed = database_.execute("COMMIT");
-    if (committed.ok()) open_ = false;
-    return committed;
-  }
-
- private:
-  sqlite::Database& database_;
-  bool open_ = false;
-};
-
-void bind_key(sqlite::Statement& statement, const CacheKey& key) {
-  statement.bind(1, std::string_view(key.map))
-      .bind(2, std::string_view(key.build))
-      .bind(3, std::string_view(key.segment))
-      .bind(4, std::string_view(key.layer))
-      .bind(5, static_cast<std::int64_t>(key.number));
-}
-
-// An entry as it was read, not checked yet.
-struct Row {
-  std::string digest;
-  std::int64_t last_use_s = 0;
-  Bytes content;
-};
-
-Result<std::optional<Row>> read_row(sqlite::Database& database, const CacheKey& key) {
-  auto select = database.prepare(
-      std::string("SELECT digest, last_use_s, content FROM entries WHERE") + kKeyIs);
-  if (!select.ok()) return select.error();
-  bind_key(*select, key);
-  const Result<bool> found = select->step();
-  if (!found.ok()) return found.error();
-  if (!*found) return std::optional<Row>();
-  const ByteView content = select->blob(2);
-  return std::optional<Row>(
-      Row{select->text(0), select->integer(1), Bytes(content.begin(), content.end())});
-}
-
-Status delete_row(sqlite::Database& database, const CacheKey& key) {
-  auto statement = database.prepare(std::string("DELETE FROM entries WHERE") + kKeyIs);
-  if (!statement.ok()) return statement.error();
-  bind_key(*statement, key);
-  return statement->run();
-}
-
-Status set_last_use(sqlite::Database& database, const CacheKey& key, std::int64_t now_s) {
-  auto update = database.prepare(std::string("UPDATE entries SET last_use_s = ?6 WHERE") + kKeyIs +
-                                 " AND last_use_s <> ?6");
-  if (!update.ok()) return update.error();
-  bind_key(*update, key);
-  update->bind(6, now_s);
-  return update->run();
-}
-
-Status insert_row(sqlite::Database& database, const CacheKey& key, ByteView content,
-                  std::int64_t now_s) {
-  auto insert = database.prepare(
-      "INSERT INTO entries (map, build, segment, layer, number, digest, bytes, last_use_s, content)"
-      " VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)");
-  if (!insert.ok()) return insert.error();
-  bind_key(*insert, key);
-  const std::string digest = digest_of(content);
-  insert->bind(6, std::string_view(digest))
-      .bind(7, static_cast<std::int64_t>(content.size()))
-      .bind(8, now_s)
-      .bind(9, content);
-  return insert->run();
-}
-
-Result<std::uint64_t> total_bytes(sqlite::Database& database) {
-  auto select = database.prepare("SELECT bytes FROM total");
-  if (!select.ok()) return select.error();
-  const Result<bool> row = select->step();
-  if (!row.ok()) return row.error();
-  return static_cast<std::uint64_t>(*row ? select->integer(0) : 0);
-}
-
-// Removes the least recently used entries until the rest keeps within the limit.
-Status evict(sqlite::Database& database, std::uint64_t limit_bytes) {
-  auto remove_oldest = database.prepare(
-      "DELETE FROM entries WHERE id ="
-      " (SELECT id FROM entries ORDER BY last_use_s, layer = '', id LIMIT 1)");
-  if (!remove_oldest.ok()) return remove_oldest.error();
-  for (;;) {
-    const Result<std::uint64_t> total = total_bytes(database);
-    if (!total.ok()) return total.error();
-    if (*total <= limit_bytes) return ok_status();
-    Status removed = remove_oldest->run();
-    if (!removed.ok() || database.changes() == 0) return removed;
-  }
-}
-
-Status replace_row(sqlite::Database& database, const CacheKey& key, ByteView content,
-                   std::int64_t now_s, std::uint64_t limit_bytes) {
-  Transaction transaction(database);
-  Status done = transaction.begin();
-  if (done.ok()) done = delete_row(database, key);
-  if (done.ok()) done = insert_row(database, key, content, now_s);
-  if (done.ok()) done = evict(database, limit_bytes);
-  return done.ok() ? transaction.commit() : done;
-}
-
-constexpr char kSegmentDocuments[] =
-    "SELECT map, build, segment, digest, content FROM entries AS e"
-    " WHERE layer = '' AND segment <> '' AND build ="
-    " (SELECT build FROM entries WHERE layer = '' AND segment <> '' AND map = e.map"
-    "  ORDER BY last_use_s DESC, id DESC LIMIT 1)";
-constexpr char kMapDocuments[] =
-    "SELECT map, build, segment, digest, content FROM entries AS e"
-    " WHERE layer = '' AND segment = '' AND number = 0 AND build ="
-    " (SELECT build FROM entries WHERE layer = '' AND segment = '' AND number = 0 AND map = e.map"
-    "  ORDER BY last_use_s DESC, id DESC LIMIT 1) ORDER BY map";
-
-Status read_documents(sqlite::Database& database, const char* query,
-                      std::vector<CachedDocument>& documents) {
-  auto select = database.prepare(query);
-  if (!select.ok()) return select.error();
-  for (;;) {
-    const Result<bool> row = select->step();
-    if (!row.ok()) return row.error();
-    if (!*row) return ok_status();
-    if (digest_of(select->blob(4)) != select->text(3)) continue;
-    CacheKey key;
-    key.map = select->text(0);
-    key.build = select->text(1);
-    key.segment = select->text(2);
-    documents.push_back({std::move(key), select->text(4)});
-  }
+bool is_damage(const Status& status) {
+  // invalid_input: what is stored does not keep the tables' own rules.
+  return !status.ok() && (status.error().code == ErrorCode::corrupt ||
+                          status.error().code == ErrorCode::invalid_input);
 }
 
 }  // namespace
+
+TileCache::TileCache(CacheSettings settings) : settings_(std::move(settings)) {}
 
 Result<std::unique_ptr<TileCache>> TileCache::open(CacheSettings settings) {
   std::error_code ignored;
@@ -169,90 +33,120 @@ Result<std::unique_ptr<TileCache>> TileCache::open(CacheSettings settings) {
                  "check its permissions, or name another folder"};
   }
   std::unique_ptr<TileCache> cache(new TileCache(std::move(settings)));
-  cache->run(
-      [&](sqlite::Database& database) { return evict(database, cache->settings_.limit_bytes); });
+  cache->run(Kind::reading, [](CacheEntries&) { return ok_status(); });
   return cache;
 }
 
-void TileCache::run(const Operation& operation) {
+void TileCache::run(Kind kind, const Operation& operation) {
   const std::lock_guard lock(mutex_);
-  const Status done = run_locked(operation);
-  if (!done.ok()) ++counters_.failures;
+  const std::int64_t paused_until_s =
+      kind == Kind::reading ? reading_paused_until_s_ : writing_paused_until_s_;
+  if (settings_.steady_s() < paused_until_s) {
+    ++counters_.failures;
+    return;
+  }
+  const Status opened = file_.has_value() ? ok_status() : open_file();
+  const Status done = opened.ok() ? run_open(operation) : opened;
+  if (done.ok()) return;
+  ++counters_.failures;
+  if (done.error().code == ErrorCode::unavailable) pause(opened.ok() ? kind : Kind::reading);
+}
+
+// Who cannot read cannot write.
+void TileCache::pause(Kind kind) {
+  writing_paused_until_s_ = settings_.steady_s() + kPause_s;
+  if (kind == Kind::reading) reading_paused_until_s_ = writing_paused_until_s_;
 }
 
 // A file that could not be opened is tried again each time: the disk may have room again.
-Status TileCache::run_locked(const Operation& operation) {
-  if (!file_.has_value()) {
-    auto opened = open_cache_file(settings_.folder);
-    if (!opened.ok()) return opened.error();
-    file_ = std::move(opened).value();
-  }
-  Status done = operation(file_->database);
-  if (done.ok() || done.error().code != ErrorCode::corrupt) return done;
+Status TileCache::open_file() {
+  auto opened = open_cache_file(settings_.folder);
+  if (!opened.ok()) return opened.error();
+  file_.emplace(OpenFile{CacheEntries(std::move(opened->database), settings_.limit_bytes),
+                         opened->generation});
+  const Status checked = run_open([](CacheEntries& entries) { return entries.check_total(); });
+  if (checked.ok()) return checked;
+  ++counters_.failures;
+  if (checked.error().code == ErrorCode::unavailable) pause(Kind::writing);
+  return file_.has_value() ? ok_status() : checked;
+}
+
+// REQUIRES: an open file, which is replaced if it turns out to be damaged.
+Status TileCache::run_open(const Operation& operation) {
+  Status done = operation(file_->entries);
+  if (!is_damage(done)) return done;
   ++counters_.damaged_files;
   const int damaged = file_->generation;
   file_.reset();
   auto next = open_after_damage(settings_.folder, damaged);
-  if (next.ok()) file_ = std::move(next).value();
+  if (!next.ok()) return next.error();
+  file_.emplace(
+      OpenFile{CacheEntries(std::move(next->database), settings_.limit_bytes), next->generation});
   return done;
 }
 
 std::optional<Bytes> TileCache::find(const CacheKey& key) { return find(key, ""); }
 
 std::optional<Bytes> TileCache::find(const CacheKey& key, const std::string& digest) {
-  std::optional<Bytes> content;
-  run([&](sqlite::Database& database) -> Status {
-    auto row = read_row(database, key);
-    if (!row.ok()) return row.error();
-    if (!row->has_value()) return ok_status();
-    const Row& read = **row;
-    const std::string actual = digest_of(read.content);
-    if (actual != read.digest || (!digest.empty() && actual != digest)) {
-      ++counters_.damaged_entries;
-      return delete_row(database, key);
-    }
-    content = std::move((*row)->content);
-    const std::int64_t now_s = settings_.now_s();
-    return read.last_use_s == now_s ? ok_status() : set_last_use(database, key, now_s);
+  std::optional<CacheEntries::Found> found;
+  bool damaged = false;
+  run(Kind::reading, [&](CacheEntries& entries) -> Status {
+    auto entry = entries.find(key);
+    if (!entry.ok()) return entry.error();
+    found = std::move(entry).value();
+    damaged = found.has_value() &&
+              (!found->sound || (!digest.empty() && digest_of(found->content) != digest));
+    if (damaged) ++counters_.damaged_entries;
+    return ok_status();
   });
-  return content;
+  if (!found.has_value()) return std::nullopt;
+  if (damaged) {
+    remove(key);
+    return std::nullopt;
+  }
+  touch(key);
+  return std::move(found->content);
 }
 
 void TileCache::touch(const CacheKey& key) {
-  run([&](sqlite::Database& database) { return set_last_use(database, key, settings_.now_s()); });
+  run(Kind::writing, [&](CacheEntries& entries) { return entries.mark_used(key); });
 }
 
 void TileCache::store(const CacheKey& key, ByteView content) {
   if (content.size() > settings_.limit_bytes) return;
-  run([&](sqlite::Database& database) {
-    return replace_row(database, key, content, settings_.now_s(), settings_.limit_bytes);
-  });
+  run(Kind::writing, [&](CacheEntries& entries) { return entries.store(key, content); });
 }
 
 void TileCache::remove(const CacheKey& key) {
-  run([&](sqlite::Database& database) { return delete_row(database, key); });
+  run(Kind::writing, [&](CacheEntries& entries) { return entries.remove(key); });
 }
 
 std::vector<CachedDocument> TileCache::segment_documents() {
   std::vector<CachedDocument> documents;
-  run([&](sqlite::Database& database) {
-    return read_documents(database, kSegmentDocuments, documents);
+  run(Kind::reading, [&](CacheEntries& entries) -> Status {
+    auto listed = entries.segment_documents();
+    if (!listed.ok()) return listed.error();
+    documents = std::move(listed).value();
+    return ok_status();
   });
   return documents;
 }
 
 std::vector<CachedDocument> TileCache::map_documents() {
   std::vector<CachedDocument> documents;
-  run([&](sqlite::Database& database) {
-    return read_documents(database, kMapDocuments, documents);
+  run(Kind::reading, [&](CacheEntries& entries) -> Status {
+    auto listed = entries.map_documents();
+    if (!listed.ok()) return listed.error();
+    documents = std::move(listed).value();
+    return ok_status();
   });
   return documents;
 }
 
 std::uint64_t TileCache::bytes() {
   std::uint64_t bytes = 0;
-  run([&](sqlite::Database& database) -> Status {
-    const Result<std::uint64_t> total = total_bytes(database);
+  run(Kind::reading, [&](CacheEntries& entries) -> Status {
+    const Result<std::uint64_t> total = entries.bytes();
     if (!total.ok()) return total.error();
     bytes = *total;
     return ok_status();

@@ -10,42 +10,17 @@
 #include <string>
 #include <vector>
 
-#include "client/cache/cache_file.h"
+#include "client/cache/cache_entries.h"
+#include "client/cache/steady_clock.h"
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
-#include "schema/store/sqlite.h"
 
 namespace milepost {
-
-// Names one entry. Everything under a build is immutable, so an entry never goes stale.
-struct CacheKey {
-  std::string map;
-  std::string build;
-  std::string segment;       // empty: of the whole map
-  std::string layer;         // empty: a document
-  std::uint32_t number = 0;  // the tile's index, or the cell's number
-
-  static CacheKey map_document(std::string map, std::string build) {
-    return {std::move(map), std::move(build), "", "", 0};
-  }
-  // The index of the map's cells.
-  static CacheKey areas_document(std::string map, std::string build) {
-    return {std::move(map), std::move(build), "", "", 1};
-  }
-  static CacheKey segment_document(std::string map, std::string build, std::string segment) {
-    return {std::move(map), std::move(build), std::move(segment), "", 0};
-  }
-};
-
-struct CachedDocument {
-  CacheKey key;
-  std::string content;
-};
 
 struct CacheSettings {
   std::filesystem::path folder;             // made if need be
   std::uint64_t limit_bytes = 1ULL << 30U;  // of the contents; SQLite adds a few percent
-  std::function<std::int64_t()> now_s;      // seconds since 1970
+  std::function<std::int64_t()> steady_s = steady_seconds;
 };
 
 // Counts since the cache was opened.
@@ -57,7 +32,9 @@ struct CacheCounters {
 
 // One SQLite file, shared with other processes that name the same folder. It is allowed to forget:
 // a full disk, a lock held too long and a damaged file are counted and otherwise look like an empty
-// cache. A process killed at any instant leaves whole entries only.
+// cache. A process killed at any instant leaves whole entries only. A lock of another process is
+// waited for a few seconds at most, and then not asked for again for ten seconds; while another
+// process writes, what is stored is still found.
 // Safe to use from several threads at once.
 class TileCache {
  public:
@@ -83,16 +60,27 @@ class TileCache {
   CacheCounters counters() const;
 
  private:
-  using Operation = std::function<Status(sqlite::Database&)>;
+  enum class Kind { reading, writing };
+  using Operation = std::function<Status(CacheEntries&)>;
 
-  explicit TileCache(CacheSettings settings) : settings_(std::move(settings)) {}
-  void run(const Operation& operation);
-  Status run_locked(const Operation& operation);
+  struct OpenFile {
+    CacheEntries entries;
+    int generation = 0;
+  };
+
+  explicit TileCache(CacheSettings settings);
+  void run(Kind kind, const Operation& operation);
+  Status open_file();
+  Status run_open(const Operation& operation);
+  void pause(Kind kind);
 
   const CacheSettings settings_;
   mutable std::mutex mutex_;  // guards all below
-  std::optional<CacheFile> file_;
+  std::optional<OpenFile> file_;
   CacheCounters counters_;
+  // Until then no lock is asked for.
+  std::int64_t reading_paused_until_s_ = 0;
+  std::int64_t writing_paused_until_s_ = 0;
 };
 
 }  // namespace milepost

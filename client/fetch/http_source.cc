@@ -101,7 +101,7 @@ class HttpSource : public MapSource {
   HttpSource(std::string base_url, const HttpSourceSettings& settings, HttpSourceParts parts,
              std::unique_ptr<TileCache> cache)
       : base_url_(std::move(base_url)),
-        now_s_(std::move(parts.now_s)),
+        steady_s_(std::move(parts.steady_s)),
         cache_(std::move(cache)),
         requests_(std::move(parts.transport),
                   {.attempts = settings.attempts, .sleep = std::move(parts.sleep)}),
@@ -115,8 +115,9 @@ class HttpSource : public MapSource {
                             "," + digits_of(position.longitude_deg) +
                             "&radius_m=" + digits_of(radius_m);
     const auto parse = [this, &url](const std::string& text) {
-      known_lines_.forget();
-      return parse_nearby_document(text, url);
+      auto segments = parse_nearby_document(text, url);
+      if (segments.ok()) known_lines_.forget();
+      return segments;
     };
     return current_list<NearbySegment>(
         url, [&] { return segments_known_near(position, radius_m); }, parse);
@@ -139,12 +140,16 @@ class HttpSource : public MapSource {
       if (known.ok() && known->version == version) return known;
       cache_->remove(key);
     }
-    const Result<std::string> text = requests_.document(url);
-    if (!text.ok()) return text.error();
-    auto description = parse_map_document(*text, url, version.map);
-    if (!description.ok()) return description;
-    if (description->version != version) return rebuilt(url, version, description->version);
-    cache_->store(key, as_bytes(*text));
+    MapDescription description;
+    const Status fetched = requests_.document(url, [&](const std::string& text) -> Status {
+      auto described = parse_map_document(text, url, version.map);
+      if (!described.ok()) return described.error();
+      if (described->version != version) return rebuilt(url, version, described->version);
+      cache_->store(key, as_bytes(text));
+      description = std::move(*described);
+      return ok_status();
+    });
+    if (!fetched.ok()) return fetched.error();
     return description;
   }
 
@@ -257,26 +262,31 @@ class HttpSource : public MapSource {
             "ask for the map's current build"};
   }
 
-  // What the server says now; while it cannot be reached, what is known without it, if anything is.
+  // What the server says now; while it cannot be reached, or something else answers in its place,
+  // what is known without it, if anything is.
   template <class Item>
   Result<std::vector<Item>> current_list(
       const std::string& url, const std::function<std::vector<Item>()>& known_items,
       const std::function<Result<std::vector<Item>>(const std::string& text)>& parse) {
-    std::vector<Item> known;
-    if (now_s_() < server_away_until_s_) known = known_items();
-    if (!known.empty()) return known;
-    std::string text;
+    std::vector<Item> items;
+    if (steady_s_() < server_away_until_s_) items = known_items();
+    if (!items.empty()) return items;
+    const auto read = [&](const std::string& text) -> Status {
+      Result<std::vector<Item>> parsed = parse(text);
+      if (!parsed.ok()) return parsed.error();
+      items = std::move(*parsed);
+      return ok_status();
+    };
     const Status fetched = with_retries(requests_.retry(), [&] {
-      Attempt attempt = requests_.try_document(url, text);
+      Attempt attempt = requests_.try_document(url, read);
       if (is_unavailable(attempt.status)) {
-        server_away_until_s_ = now_s_() + kServerAway_s;
-        known = known_items();
+        server_away_until_s_ = steady_s_() + kServerAway_s;
+        items = known_items();
       }
-      return known.empty() ? attempt : Attempt{};
+      return items.empty() ? attempt : Attempt{};
     });
-    if (!known.empty()) return known;
     if (!fetched.ok()) return fetched.error();
-    return parse(text);
+    return items;
   }
 
   std::vector<MapVersion> maps_known() {
@@ -323,20 +333,24 @@ class HttpSource : public MapSource {
     const auto keep = [&](Document&& document) {
       const auto shared = std::make_shared<const Document>(std::move(document));
       memory.keep(key, shared);
-      return Result<Shared>(shared);
+      return Shared(shared);
     };
     if (const auto cached = cache_->find(key)) {
       Result<Document> document = parse(as_text(*cached), "the cache");
       if (document.ok()) return keep(std::move(*document));
       cache_->remove(key);
     }
-    const Result<std::string> text = requests_.document(url);
-    if (!text.ok()) return text.error();
-    Result<Document> document = parse(*text, url);
-    if (!document.ok()) return document.error();
-    cache_->store(key, as_bytes(*text));
-    on_fetched();
-    return keep(std::move(*document));
+    Shared fetched_document;
+    const Status fetched = requests_.document(url, [&](const std::string& text) -> Status {
+      Result<Document> document = parse(text, url);
+      if (!document.ok()) return document.error();
+      cache_->store(key, as_bytes(text));
+      on_fetched();
+      fetched_document = keep(std::move(*document));
+      return ok_status();
+    });
+    if (!fetched.ok()) return fetched.error();
+    return fetched_document;
   }
 
   // The tile index of a layer; empty if the map has the layer and the segment nothing in it.
@@ -377,7 +391,7 @@ class HttpSource : public MapSource {
   }
 
   const std::string base_url_;
-  const std::function<std::int64_t()> now_s_;
+  const std::function<std::int64_t()> steady_s_;
   const std::unique_ptr<TileCache> cache_;
   ServerRequests requests_;
   FrameFetcher fetcher_;
@@ -393,7 +407,8 @@ Result<std::unique_ptr<MapSource>> make_http_source(const HttpSourceSettings& se
                                                     HttpSourceParts parts) {
   Result<std::string> base_url = checked_server_url(settings.server_url);
   if (!base_url.ok()) return base_url.error();
-  auto cache = TileCache::open({settings.cache_directory, settings.cache_limit_bytes, parts.now_s});
+  auto cache =
+      TileCache::open({settings.cache_directory, settings.cache_limit_bytes, parts.steady_s});
   if (!cache.ok()) return cache.error();
   return std::unique_ptr<MapSource>(std::make_unique<HttpSource>(
       std::move(base_url).value(), settings, std::move(parts), std::move(cache).value()));
@@ -404,10 +419,6 @@ Result<std::unique_ptr<MapSource>> open_http_source(const HttpSourceSettings& se
   parts.transport = make_curl_transport({settings.connect_timeout_s, settings.stall_timeout_s});
   parts.sleep = [](double pause_s) {
     std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
-  };
-  parts.now_s = [] {
-    const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
-    return std::int64_t{std::chrono::duration_cast<std::chrono::seconds>(since_1970).count()};
   };
   return make_http_source(settings, std::move(parts));
 }

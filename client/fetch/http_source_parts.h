@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "client/cache/steady_clock.h"
 #include "client/fetch/http_source.h"
 #include "client/fetch/transport.h"
 
@@ -13,10 +14,11 @@ namespace milepost {
 struct HttpSourceParts {
   std::unique_ptr<Transport> transport;
   std::function<void(double pause_s)> sleep;  // between two attempts
-  std::function<std::int64_t()> now_s;        // seconds since 1970; called from any thread
+  // Seconds of a clock that nobody sets; called from any thread.
+  std::function<std::int64_t()> steady_s = steady_seconds;
 };
 
-// Errors: as open_http_source, which puts in libcurl, the thread's sleep and the system's clock.
+// Errors: as open_http_source, which puts in libcurl and the thread's sleep.
 Result<std::unique_ptr<MapSource>> make_http_source(const HttpSourceSettings& settings,
                                                     HttpSourceParts parts);
 

@@ -17,20 +17,21 @@ HttpAnswer ServerRequests::get(const std::string& url, std::uint64_t limit_bytes
   return answer;
 }
 
-Attempt ServerRequests::try_document(const std::string& url, std::string& text) {
-  text.clear();
-  HttpAnswer answer = get(url, kMaxDocumentBytes, [&](ByteView piece) {
+Attempt ServerRequests::try_document(const std::string& url, const DocumentReader& read) {
+  std::string text;
+  const HttpAnswer answer = get(url, kMaxDocumentBytes, [&](ByteView piece) {
     text += as_text(piece);
     return ok_status();
   });
-  return {std::move(answer.status), answer.retry_after_s};
+  Status done = answer.status.ok() ? read(text) : answer.status;
+  if (!done.ok() && done.error().code == ErrorCode::corrupt) {
+    done = foreign_answer(url, done.error().what);
+  }
+  return {std::move(done), answer.retry_after_s};
 }
 
-Result<std::string> ServerRequests::document(const std::string& url) {
-  std::string text;
-  const Status fetched = with_retries(retry_, [&] { return try_document(url, text); });
-  if (!fetched.ok()) return fetched.error();
-  return text;
+Status ServerRequests::document(const std::string& url, const DocumentReader& read) {
+  return with_retries(retry_, [&] { return try_document(url, read); });
 }
 
 }  // namespace milepost

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -10,6 +11,9 @@
 #include "client/fetch/transport.h"
 
 namespace milepost {
+
+// Reads a document. An error that is corrupt says that the document is not a milepost server's.
+using DocumentReader = std::function<Status(const std::string& text)>;
 
 // Safe to use from several threads at once.
 class ServerRequests {
@@ -19,10 +23,11 @@ class ServerRequests {
 
   // One request, as Transport::get.
   HttpAnswer get(const std::string& url, std::uint64_t limit_bytes, const BodySink& sink);
-  // One request for a document of at most 64 MiB.
-  Attempt try_document(const std::string& url, std::string& text);
-  // The same, tried again. Errors: those of HttpAnswer.
-  Result<std::string> document(const std::string& url);
+  // One request for a document of at most 64 MiB. Errors: those of HttpAnswer but corrupt, which is
+  // foreign_answer, also for what the reader calls so; and the reader's others.
+  Attempt try_document(const std::string& url, const DocumentReader& read);
+  // The same, tried again.
+  Status document(const std::string& url, const DocumentReader& read);
 
   const RetryPolicy& retry() const { return retry_; }
   std::uint64_t made() const { return made_; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -16,8 +17,9 @@
 namespace milepost {
 namespace {
 
-constexpr std::size_t kMaxProblemBytes = 16UL * 1024;
+constexpr std::size_t kMaxRefusalBytes = 16UL * 1024;
 constexpr long kMaxRedirects = 5;
+constexpr std::size_t kMaxTypeBytes = 60;
 
 struct HandleCloser {
   void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
@@ -56,7 +58,7 @@ struct Reception {
   const BodySink* sink = nullptr;
   std::uint64_t limit_bytes = 0;
   std::uint64_t received_bytes = 0;
-  std::string problem;           // the start of the body of an answer other than 200
+  std::string refusal;           // the start of a body that is not for the sink
   std::optional<Error> refused;  // why we ended the request ourselves
 };
 
@@ -66,11 +68,31 @@ long http_status(CURL* handle) {
   return status;
 }
 
+// The media type of the answer in lower case, without parameters; empty if it has none.
+std::string media_type(CURL* handle) {
+  const char* header = nullptr;
+  curl_easy_getinfo(handle, CURLINFO_CONTENT_TYPE, &header);
+  std::string type(header == nullptr ? "" : header);
+  type.resize(std::min({type.size(), type.find_first_of("; "), kMaxTypeBytes}));
+  for (char& c : type) {
+    const bool plain = c > 0x20 && c < 0x7f;
+    c = plain ? static_cast<char>(std::tolower(c)) : '?';
+  }
+  return type;
+}
+
+// Whether the answer, by its header, is the document or the tiles that were asked for. A page of
+// HTML is none, whatever its status.
+bool is_for_the_sink(CURL* handle) {
+  const std::string type = media_type(handle);
+  return http_status(handle) == 200 && type != "text/html" && type != "application/xhtml+xml";
+}
+
 bool take_body(Reception& reception, ByteView piece) {
   reception.received_bytes += piece.size();
-  if (http_status(reception.handle) != 200) {
-    const std::size_t room = kMaxProblemBytes - reception.problem.size();
-    reception.problem += as_text(piece.first(std::min(room, piece.size())));
+  if (!is_for_the_sink(reception.handle)) {
+    const std::size_t room = kMaxRefusalBytes - reception.refusal.size();
+    reception.refusal += as_text(piece.first(std::min(room, piece.size())));
     return piece.size() <= room;  // more than that says no more than its status
   }
   if (reception.received_bytes > reception.limit_bytes) {
@@ -90,47 +112,97 @@ std::size_t on_body(char* data, std::size_t /*always_one*/, std::size_t size, vo
   return taken ? size : CURL_WRITEFUNC_ERROR;
 }
 
-// The "detail" of a problem+json body; empty if there is none.
-std::string detail_of(const std::string& body) {
-  const Result<nlohmann::json> json = read_json(body);
-  if (!json || !json->is_object()) return "";
-  const auto detail = json->find("detail");
-  if (detail == json->end() || !detail->is_string()) return "";
-  std::string text = detail->get<std::string>();
+// ": DETAIL" of a problem; empty if it has none.
+std::string detail_of(const nlohmann::json& problem) {
+  const auto detail = problem.find("detail");
+  if (detail == problem.end() || !detail->is_string()) return "";
+  std::string text = ": " + detail->get<std::string>();
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return text;
 }
 
-Error error_of_status(const std::string& url, long status, const std::string& body) {
-  const std::string detail = detail_of(body);
-  const auto error = [&](ErrorCode code, const std::string& what, const std::string& mend) {
-    return Error{code, url, detail.empty() ? what : what + ": " + detail, mend};
-  };
-  if (status == 404) return error(ErrorCode::not_found, "the server does not have it", "");
-  if (status == 410) {
-    return error(ErrorCode::gone, "the map was rebuilt and this build of it is gone",
-                 "ask for the map's current build");
+// Of a problem with a status that only says that something is unavailable, or that no milepost
+// server gives, there is nothing to tell.
+std::optional<Error> error_of_problem(const std::string& url, long status,
+                                      const nlohmann::json& problem) {
+  const std::string detail = detail_of(problem);
+  switch (status) {
+    case 404:
+      return Error{ErrorCode::not_found, url, "the server does not have it" + detail, ""};
+    case 410:
+      return Error{ErrorCode::gone, url,
+                   "the map was rebuilt and this build of it is gone" + detail,
+                   "ask for the map's current build"};
+    case 400:
+      return Error{ErrorCode::invalid_input, url, "the server calls it wrong" + detail, ""};
+    case 405:
+    case 413:
+    case 414:
+    case 431:
+      return Error{ErrorCode::invalid_input, url,
+                   "the server does not answer it, HTTP status " + std::to_string(status) + detail,
+                   "check that the URL is a milepost server's"};
+    default:
+      return std::nullopt;
   }
-  if (status == 400) return error(ErrorCode::invalid_input, "the server calls it wrong", "");
+}
+
+// Of an answer that was not for the sink.
+Error error_of_refusal(CURL* handle, const std::string& url, const std::string& body) {
+  const long status = http_status(handle);
+  const std::string type = media_type(handle);
+  const auto problem = read_json(type == "application/problem+json" ? body : "");
+  const bool is_problem = problem.ok() && problem->is_object();
+  if (is_problem) {
+    if (const auto error = error_of_problem(url, status, *problem)) return *error;
+  }
   const std::string number = "HTTP status " + std::to_string(status);
-  if (status == 429 || status >= 500) {
-    return error(ErrorCode::unavailable, "the server is busy or ill, " + number, "try again later");
+  if (status == 429 || (status >= 500 && status != 511)) {  // 511: the network wants a login
+    return {ErrorCode::unavailable, url,
+            "the server is unavailable, " + number + (is_problem ? detail_of(*problem) : ""),
+            "try again later"};
   }
-  return error(ErrorCode::invalid_input, "the server does not answer it, " + number,
-               "check that the URL is a milepost server's");
+  return foreign_answer(url, type.empty() ? number : number + ", " + type);
+}
+
+struct UrlCloser {
+  void operator()(CURLU* url) const { curl_url_cleanup(url); }
+};
+using Url = std::unique_ptr<CURLU, UrlCloser>;
+
+// Null if it is none.
+Url parsed_url(const std::string& text) {
+  Url url(curl_url());
+  if (curl_url_set(url.get(), CURLUPART_URL, text.c_str(), 0) != CURLUE_OK) url.reset();
+  return url;
+}
+
+std::string url_part(CURLU* url, CURLUPart part) {
+  char* text = nullptr;
+  if (curl_url_get(url, part, &text, 0) != CURLUE_OK) return "";
+  std::string copy(text);
+  curl_free(text);
+  return copy;
+}
+
+bool is_http(CURLU* url) {
+  const std::string scheme = url_part(url, CURLUPART_SCHEME);
+  return scheme == "http" || scheme == "https";
 }
 
 Error error_of_curl(const std::string& url, CURLcode code, const char* message) {
   const std::string what = message[0] != '\0' ? message : curl_easy_strerror(code);
   switch (code) {
     case CURLE_URL_MALFORMAT:
-    case CURLE_UNSUPPORTED_PROTOCOL:  // also: an answer that is not HTTP
-    case CURLE_TOO_MANY_REDIRECTS:
+    case CURLE_UNSUPPORTED_PROTOCOL: {  // also: an answer that is not HTTP
+      const Url asked = parsed_url(url);
+      if (asked != nullptr && is_http(asked.get())) return foreign_answer(url, what);
       return {ErrorCode::invalid_input, url, what, "check that the URL is a milepost server's"};
+    }
+    case CURLE_TOO_MANY_REDIRECTS:
     case CURLE_WEIRD_SERVER_REPLY:
-    case CURLE_WRITE_ERROR:
-      return {ErrorCode::corrupt, url, what, "check that the URL is a milepost server's"};
+      return foreign_answer(url, what);
     default:
       return {ErrorCode::unavailable, url, what, "check that the server runs and can be reached"};
   }
@@ -178,9 +250,10 @@ class CurlTransport : public Transport {
       if (error.where.empty()) error.where = url;
       return error;
     }
-    const bool other_status = http_status(handle) != 200;
-    if (other_status && (code == CURLE_OK || code == CURLE_WRITE_ERROR)) {
-      return error_of_status(url, http_status(handle), reception.problem);
+    // CURLE_WRITE_ERROR: the answer was cut off, since it is too long for a refusal.
+    const bool answered = code == CURLE_OK || code == CURLE_WRITE_ERROR;
+    if (answered && !is_for_the_sink(handle)) {
+      return error_of_refusal(handle, url, reception.refusal);
     }
     if (code == CURLE_OK) return ok_status();
     return error_of_curl(url, code, message);
@@ -216,31 +289,25 @@ class CurlTransport : public Transport {
   HandlePool pool_;
 };
 
-struct UrlCloser {
-  void operator()(CURLU* url) const { curl_url_cleanup(url); }
-};
-
-std::string url_part(CURLU* url, CURLUPart part) {
-  char* text = nullptr;
-  if (curl_url_get(url, part, &text, 0) != CURLUE_OK) return "";
-  std::string copy(text);
-  curl_free(text);
-  return copy;
-}
-
 }  // namespace
 
 std::unique_ptr<Transport> make_curl_transport(const TransportSettings& settings) {
   return std::make_unique<CurlTransport>(settings);
 }
 
+Error foreign_answer(const std::string& url, const std::string& what) {
+  return {ErrorCode::unavailable, url,
+          "no milepost server answered but something else, perhaps a login page of the network: " +
+              what,
+          "log in to the network, or check the server's URL"};
+}
+
 Result<std::string> checked_server_url(const std::string& base) {
-  const std::unique_ptr<CURLU, UrlCloser> url(curl_url());
-  const bool parsed = curl_url_set(url.get(), CURLUPART_URL, base.c_str(), 0) == CURLUE_OK;
-  const std::string scheme = parsed ? url_part(url.get(), CURLUPART_SCHEME) : "";
-  const bool plain = parsed && url_part(url.get(), CURLUPART_QUERY).empty() &&
+  const Url url = parsed_url(base);
+  const bool plain = url != nullptr && is_http(url.get()) &&
+                     url_part(url.get(), CURLUPART_QUERY).empty() &&
                      url_part(url.get(), CURLUPART_FRAGMENT).empty();
-  if (!plain || (scheme != "http" && scheme != "https")) {
+  if (!plain) {
     return Error{ErrorCode::invalid_input, base, "this is not a server's URL",
                  "give it as http://HOST:PORT"};
   }

@@ -16,14 +16,19 @@ using BodySink = std::function<Status(ByteView piece)>;
 
 // How a request ended.
 struct HttpAnswer {
-  // ok: status 200, and the whole body went to the sink. Otherwise the error names the URL:
-  // not_found (404), gone (410), invalid_input (400, other refusals, a URL that is none), corrupt
-  // (no HTTP, or a body beyond the limit), unavailable (no connection, a timeout, a body that
-  // breaks off, 429, 5xx), or what the sink returned.
+  // ok: status 200, no page of HTML, and the whole body went to the sink. Otherwise the error names
+  // the URL: not_found (404), gone (410) and invalid_input (400 and other refusals), each only
+  // where the body is application/problem+json, as a milepost server's is; invalid_input (a URL
+  // that is none); corrupt (a body beyond the limit); unavailable (no connection, a timeout, a body
+  // that breaks off, 429, 5xx, and foreign_answer for all else), or what the sink returned.
   Status status;
   double retry_after_s = 0;      // what a busy server asked for; 0 if it asked for nothing
   std::uint64_t body_bytes = 0;  // received, also of an answer that broke off
 };
+
+// The error where something else than a milepost server answered: a network's login page, a proxy,
+// another program. As good as no server, so it is unavailable. `what`: how that is known.
+Error foreign_answer(const std::string& url, const std::string& what);
 
 // All members are safe to call from several threads at once.
 class Transport {

@@ -148,6 +148,14 @@ Result<Statement> Database::prepare(std::string_view sql) const {
   return Statement(statement);
 }
 
+Result<std::int64_t> Database::integer(std::string_view sql) const {
+  auto statement = prepare(sql);
+  if (!statement.ok()) return statement.error();
+  const Result<bool> row = statement->step();
+  if (!row.ok()) return row.error();
+  return *row ? statement->integer(0) : 0;
+}
+
 std::int64_t Database::changes() const { return sqlite3_changes64(database_.get()); }
 
 }  // namespace milepost::sqlite

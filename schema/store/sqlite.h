@@ -60,6 +60,8 @@ class Database {
   Status execute(const std::string& sql);
   // Errors: corrupt (the file is no database, or lacks the table).
   Result<Statement> prepare(std::string_view sql) const;
+  // The first column of the first row, 0 if there is none. Errors: as Statement::step.
+  Result<std::int64_t> integer(std::string_view sql) const;
   std::int64_t changes() const;  // rows that the last statement changed
   const std::filesystem::path& file() const { return file_; }
 

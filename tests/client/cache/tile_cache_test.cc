@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sqlite3.h>
 #include <sys/resource.h>
 
 #include <fstream>
@@ -12,8 +11,7 @@
 #include <vector>
 
 #include "schema/base/digest.h"
-#include "tests/client/cache/numbered_tile.h"
-#include "tests/support/temp_folder.h"
+#include "tests/client/cache/cache_test.h"
 
 namespace milepost::testing {
 namespace {
@@ -22,41 +20,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr std::uint64_t kPlenty = 1ULL << 30U;
-
-Bytes bytes_of_size(std::size_t size, std::uint8_t value) { return Bytes(size, value); }
-
-std::string text_of(const std::optional<Bytes>& content) {
-  return content.has_value() ? std::string(as_text(*content)) : "(absent)";
-}
-
-class TileCacheTest : public ::testing::Test {
- protected:
-  std::unique_ptr<TileCache> open(std::uint64_t limit_bytes = kPlenty) {
-    auto cache = TileCache::open({folder_.path(), limit_bytes, [this] { return now_s_; }});
-    EXPECT_TRUE(cache.ok()) << cache.error().line();
-    return std::move(cache).value();
-  }
-
-  void change_database(const std::string& sql) const {
-    sqlite3* database = nullptr;
-    ASSERT_EQ(sqlite3_open((folder_ / "tiles-1.sqlite").c_str(), &database), SQLITE_OK);
-    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
-        << sqlite3_errmsg(database);
-    sqlite3_close(database);
-  }
-
-  std::vector<std::uint32_t> present(TileCache& cache, std::uint32_t count) const {
-    std::vector<std::uint32_t> numbers;
-    for (std::uint32_t number = 0; number < count; ++number) {
-      if (cache.find(numbered_key(number)).has_value()) numbers.push_back(number);
-    }
-    return numbers;
-  }
-
-  TempFolder folder_;
-  std::int64_t now_s_ = 1000;
-};
+using TileCacheTest = CacheTest;
 
 TEST_F(TileCacheTest, KeepsWhatWasStored) {
   open()->store(numbered_key(7), numbered_content(7));
@@ -103,7 +67,7 @@ TEST_F(TileCacheTest, TheLeastRecentlyUsedGoesFirst) {
   EXPECT_THAT(present(*cache, 4), ElementsAre(0, 1, 3));
 }
 
-TEST_F(TileCacheTest, ADocumentOutlivesTheTilesOfItsSecond) {
+TEST_F(TileCacheTest, ADocumentOutlivesTheTilesItLeadsTo) {
   const auto cache = open(200);
   const CacheKey document = CacheKey::segment_document("town", "build", "s1");
   cache->store(document, bytes_of_size(100, 1));
@@ -166,7 +130,7 @@ TEST_F(TileCacheTest, AFileThatIsNoDatabaseIsSetAside) {
 
 TEST_F(TileCacheTest, ACacheOfAnotherLayoutIsSetAside) {
   open()->store(numbered_key(1), as_bytes("theirs"));
-  change_database("PRAGMA user_version = 2");
+  change_database("PRAGMA user_version = 1");
   const auto cache = open();
   EXPECT_EQ(cache->find(numbered_key(1)), std::nullopt);
   cache->store(numbered_key(1), as_bytes("ours"));

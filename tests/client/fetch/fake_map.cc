@@ -140,7 +140,13 @@ ScriptedAnswer FakeMap::answer(const std::string& target) const {
       return ok(text_of(cell_frame(k)));
     }
   }
-  return {.status = 404, .body = R"({"detail": "no such thing"})"};
+  return problem(404, "no such thing");
+}
+
+ScriptedAnswer problem(int status, const std::string& detail) {
+  return {.status = status,
+          .body = json{{"type", "about:blank"}, {"status", status}, {"detail", detail}}.dump(),
+          .headers = {{"Content-Type", "application/problem+json"}}};
 }
 
 std::optional<AlongRange> range_of(const std::string& target) {

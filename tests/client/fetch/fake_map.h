@@ -47,6 +47,9 @@ class FakeMap {
   std::vector<CellEntry> cells;
 };
 
+// An error as a milepost server tells it.
+ScriptedAnswer problem(int status, const std::string& detail);
+
 // The range or the box that a target asks for; nothing for other targets.
 std::optional<AlongRange> range_of(const std::string& target);
 std::optional<Bounds> box_of(const std::string& target);

@@ -128,7 +128,7 @@ TEST_F(HttpAreasTest, AWrongByteIsRefusedAndNotStored) {
 }
 
 TEST_F(HttpAreasTest, AnOldBuildIsGone) {
-  answer_next("/builds/", {{.status = 410, .body = R"({"detail": "build 0011 was replaced"})"}});
+  answer_next("/builds/", {problem(410, "build 0011 was replaced")});
   const Error error = cells_error(*open_source(), kSouthWest);
   EXPECT_EQ(error.code, ErrorCode::gone);
   EXPECT_THAT(error.line(), HasSubstr("build 0011 was replaced"));

@@ -182,8 +182,7 @@ TEST_F(HttpSourceTest, AHostileSingleTileIsRefused) {
 }
 
 TEST_F(HttpSourceTest, AnOldBuildIsGone) {
-  const ScriptedAnswer gone = {.status = 410, .body = R"({"detail": "build 0011 was replaced"})"};
-  answer_next("/builds/", {gone});
+  answer_next("/builds/", {problem(410, "build 0011 was replaced")});
   const auto segment = open_source()->segment(map_.version(), "s1");
   ASSERT_FALSE(segment.ok());
   EXPECT_EQ(segment.error().code, ErrorCode::gone);
@@ -357,13 +356,15 @@ TEST_F(HttpSourceTest, WhatIsAbsentIsNotFound) {
   EXPECT_THAT(*walls, IsEmpty());
 }
 
-TEST_F(HttpSourceTest, AWrongDocumentIsCorruptAndNotStored) {
-  answer_next("/segments/s1", {{.body = R"({"map": "village"})"}});
+TEST_F(HttpSourceTest, AWrongDocumentIsNotBelievedAndNotStored) {
+  const ScriptedAnswer wrong = {.body = R"({"map": "village"})"};
+  answer_next("/segments/s1", {wrong, wrong, wrong});
   const auto source = open_source();
   const auto segment = source->segment(map_.version(), "s1");
   ASSERT_FALSE(segment.ok());
-  EXPECT_EQ(segment.error().code, ErrorCode::corrupt);
+  EXPECT_EQ(segment.error().code, ErrorCode::unavailable);
   EXPECT_THAT(segment.error().line(), HasSubstr("/segments/s1"));
+  EXPECT_THAT(segment.error().line(), HasSubstr("about \"village\""));
   EXPECT_TRUE(source->segment(map_.version(), "s1").ok());
 }
 

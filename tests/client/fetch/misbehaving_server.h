@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ class MisbehavingServerTest : public ::testing::Test {
     HttpSourceParts parts;
     parts.transport = make_curl_transport({5, 10});
     parts.sleep = [this](double pause_s) { pauses_s_.push_back(pause_s); };
-    parts.now_s = [this] { return now_s_.load(); };
+    parts.steady_s = [this] { return now_s_.load(); };
     auto source = make_http_source(settings, std::move(parts));
     EXPECT_TRUE(source.ok());
     return std::move(source).value();
@@ -42,6 +43,13 @@ class MisbehavingServerTest : public ::testing::Test {
     const std::lock_guard lock(mutex_);
     special_target_ = matches;
     special_answers_ = std::move(answers);
+  }
+
+  // Answers everything, but "/loop" by a redirect to itself and "/login" by a page; nothing: the
+  // map answers again.
+  void answer_all(std::optional<ScriptedAnswer> answer) {
+    const std::lock_guard lock(mutex_);
+    answer_to_all_ = std::move(answer);
   }
 
   // Changes every answer to a request of that kind.
@@ -67,6 +75,9 @@ class MisbehavingServerTest : public ::testing::Test {
  private:
   ScriptedAnswer answer(const std::string& target) {
     const std::lock_guard lock(mutex_);
+    if (target == "/loop") return {.status = 302, .headers = {{"Location", "/loop"}}};
+    if (target == "/login") return {.body = "<html>", .headers = {{"Content-Type", "text/html"}}};
+    if (answer_to_all_) return *answer_to_all_;
     const bool special =
         !special_answers_.empty() && target.find(special_target_) != std::string::npos;
     if (special) {
@@ -80,6 +91,7 @@ class MisbehavingServerTest : public ::testing::Test {
   }
 
   std::mutex mutex_;
+  std::optional<ScriptedAnswer> answer_to_all_;
   std::string special_target_;
   std::vector<ScriptedAnswer> special_answers_;
   IsTarget spoilt_kind_ = nullptr;

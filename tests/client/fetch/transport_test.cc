@@ -10,6 +10,7 @@ namespace milepost::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr std::uint64_t kPlenty = 1U << 20U;
@@ -29,11 +30,23 @@ class TransportTest : public ::testing::Test {
     return answer.status.ok() ? Error{} : answer.status.error();
   }
 
+  // The answer is taken for that of something else than a milepost server, and the user is told so.
+  static void expect_foreign(const HttpAnswer& answer, const std::string& detail) {
+    const Error error = error_of(answer);
+    EXPECT_EQ(error.code, ErrorCode::unavailable);
+    EXPECT_THAT(error.line(), HasSubstr("no milepost server answered"));
+    EXPECT_THAT(error.line(), HasSubstr(detail));
+    EXPECT_THAT(error.line(), HasSubstr("log in to the network"));
+  }
+
+  const std::map<std::string, std::string> kProblem = {
+      {"Content-Type", "application/problem+json"}};
   ScriptedAnswer answer_;
   std::string body_;
   ScriptedServer server_{[this](const std::string& target) -> ScriptedAnswer {
     if (target == "/target") return {.body = "the target"};
     if (target == "/loop") return {.status = 302, .headers = {{"Location", "/loop"}}};
+    if (target == "/login") return {.body = "<html>", .headers = {{"Content-Type", "text/html"}}};
     return answer_;
   }};
   std::unique_ptr<Transport> transport_ = make_curl_transport({1, 1});
@@ -60,15 +73,20 @@ TEST_F(TransportTest, FollowsARedirect) {
 }
 
 TEST_F(TransportTest, FollowsNoLoopOfRedirects) {
-  EXPECT_EQ(error_of(get("/loop")).code, ErrorCode::invalid_input);
+  expect_foreign(get("/loop"), "redirects");
   EXPECT_EQ(server_.requests().size(), 6U);
 }
 
 TEST_F(TransportTest, FollowsNoRedirectToAFile) {
   answer_ = {.status = 301, .headers = {{"Location", "file:///etc/hostname"}}};
-  const Error error = error_of(get("/"));
-  EXPECT_EQ(error.code, ErrorCode::invalid_input);
-  EXPECT_THAT(error.what, HasSubstr("Protocol"));  // refused, not tried in vain
+  expect_foreign(get("/"), "Protocol");  // refused, not tried in vain
+}
+
+TEST_F(TransportTest, FollowsNoRedirectToNowhere) {
+  for (const std::string location : {"http://[", "intent://login", "", "http://127.0.0.1:0/"}) {
+    answer_ = {.status = 302, .headers = {{"Location", location}}};
+    EXPECT_EQ(error_of(get("/")).code, ErrorCode::unavailable) << location;
+  }
 }
 
 TEST_F(TransportTest, AsksNoFile) {
@@ -78,41 +96,106 @@ TEST_F(TransportTest, AsksNoFile) {
   EXPECT_THAT(error_of(answer).what, HasSubstr("Protocol"));
 }
 
-TEST_F(TransportTest, MapsTheStatus) {
+TEST_F(TransportTest, MapsTheStatusOfAProblem) {
   const std::vector<std::pair<int, ErrorCode>> cases = {
-      {400, ErrorCode::invalid_input}, {403, ErrorCode::invalid_input},
-      {404, ErrorCode::not_found},     {410, ErrorCode::gone},
-      {429, ErrorCode::unavailable},   {500, ErrorCode::unavailable},
-      {502, ErrorCode::unavailable},   {503, ErrorCode::unavailable},
-      {204, ErrorCode::invalid_input},
+      {400, ErrorCode::invalid_input}, {404, ErrorCode::not_found},
+      {405, ErrorCode::invalid_input}, {410, ErrorCode::gone},
+      {414, ErrorCode::invalid_input}, {429, ErrorCode::unavailable},
+      {431, ErrorCode::invalid_input}, {500, ErrorCode::unavailable},
+      {503, ErrorCode::unavailable},
   };
   for (const auto& [status, code] : cases) {
-    answer_ = {.status = status};
-    const Error error = error_of(get("/here"));
-    EXPECT_EQ(error.code, code) << status;
-    EXPECT_THAT(error.line(), StartsWith(server_.url() + "/here: ")) << status;
-    EXPECT_EQ(body_, "") << status;
+    for (const std::string type :
+         {"application/problem+json", "Application/Problem+JSON; charset=utf-8"}) {
+      answer_ = {.status = status, .body = "{}", .headers = {{"Content-Type", type}}};
+      const Error error = error_of(get("/here"));
+      EXPECT_EQ(error.code, code) << status;
+      EXPECT_THAT(error.line(), StartsWith(server_.url() + "/here: ")) << status;
+      EXPECT_EQ(body_, "") << status;
+    }
   }
 }
 
+TEST_F(TransportTest, WhatIsNoProblemSaysNothingAboutTheMap) {
+  for (const int status : {204, 206, 304, 400, 401, 403, 404, 405, 407, 410, 418, 451, 511}) {
+    for (const std::string type : {"text/html", "application/json", ""}) {
+      SCOPED_TRACE(std::to_string(status) + " " + type);
+      answer_ = {.status = status, .body = R"({"detail": "log in"})"};
+      if (!type.empty()) answer_.headers["Content-Type"] = type;
+      if (status == 204 || status == 304) answer_.body.clear();
+      expect_foreign(get("/here"), "HTTP status " + std::to_string(status));
+      EXPECT_EQ(body_, "");
+    }
+  }
+  for (const int status : {401, 403, 407, 418, 511}) {  // never a milepost server's
+    answer_ = {.status = status, .body = "{}", .headers = kProblem};
+    expect_foreign(get("/"), "HTTP status " + std::to_string(status));
+  }
+}
+
+TEST_F(TransportTest, AnUnavailableServerNeedsNoProblem) {
+  for (const int status : {429, 500, 502, 503, 504}) {
+    answer_ = {.status = status, .body = "<html>", .headers = {{"Content-Type", "text/html"}}};
+    EXPECT_EQ(error_of(get("/")).code, ErrorCode::unavailable) << status;
+    EXPECT_THAT(error_of(get("/")).line(), HasSubstr("HTTP status " + std::to_string(status)));
+  }
+}
+
+TEST_F(TransportTest, APageIsNoAnswer) {
+  for (const std::string type : {"text/html", "TEXT/HTML;charset=x", "application/xhtml+xml"}) {
+    for (const std::string body : {"<html>please log in</html>", "", "{}"}) {
+      answer_ = {.body = body, .headers = {{"Content-Type", type}}};
+      expect_foreign(get("/"), "HTTP status 200");
+      EXPECT_EQ(body_, "");
+    }
+  }
+  answer_ = {.body = std::string(1 << 20, 'x'), .headers = {{"Content-Type", "text/html"}}};
+  expect_foreign(get("/", 1000), "text/html");
+}
+
+TEST_F(TransportTest, APageBehindARedirectIsNoAnswer) {
+  answer_ = {.status = 302, .headers = {{"Location", "/login"}}};
+  expect_foreign(get("/"), "text/html");
+}
+
+TEST_F(TransportTest, WhatIsNoHttpIsNoAnswer) {
+  answer_ = {.headers = {{"Content-Length", "x"}}};
+  EXPECT_EQ(error_of(get("/")).code, ErrorCode::unavailable);
+}
+
+TEST_F(TransportTest, ATypeIsToldWithoutItsControlCharacters) {
+  answer_ = {.status = 403, .headers = {{"Content-Type", "a\x1b[31m\xff" + std::string(500, 'b')}}};
+  const std::string line = error_of(get("/")).line();
+  EXPECT_THAT(line, Not(HasSubstr("\x1b")));
+  EXPECT_THAT(line, Not(HasSubstr("\xff")));
+  EXPECT_LT(line.size(), 400U);
+}
+
 TEST_F(TransportTest, TellsTheServersDetailInOneLine) {
-  answer_ = {.status = 400, .body = R"({"title": "no", "detail": "from_m is\nno number"})"};
+  answer_ = {.status = 400,
+             .body = R"({"title": "no", "detail": "from_m is\nno number"})",
+             .headers = kProblem};
   EXPECT_THAT(error_of(get("/")).line(), HasSubstr("from_m is no number"));
 }
 
-TEST_F(TransportTest, TheDetailMayBeMissingOrAbsurd) {
-  for (const std::string body :
-       {"", "<html>", "[1]", R"({"detail": 7})", "{\"detail\": \"\xff\"}"}) {
-    answer_ = {.status = 404, .body = body};
+TEST_F(TransportTest, TheDetailMayBeMissing) {
+  for (const std::string body : {"{}", R"({"detail": 7})", R"({"detail": [[[]]]})"}) {
+    answer_ = {.status = 404, .body = body, .headers = kProblem};
     EXPECT_EQ(error_of(get("/", 3)).code, ErrorCode::not_found) << body;
   }
 }
 
-TEST_F(TransportTest, AnEndlessProblemIsCutOff) {
-  answer_ = {.status = 404, .body = std::string(1 << 20, 'x')};
-  const HttpAnswer answer = get("/");
-  EXPECT_EQ(error_of(answer).code, ErrorCode::not_found);
-  EXPECT_LT(answer.body_bytes, 1U << 18U);
+TEST_F(TransportTest, AProblemThatCannotBeReadIsNone) {
+  const std::string deep = std::string(8000, '[') + std::string(8000, ']');
+  for (const std::string& body :
+       {std::string(), std::string("<html>"), std::string("[1]"),
+        std::string("{\"detail\": \"\xff\"}"), "{\"detail\": " + deep + "}", deep,
+        std::string(1 << 20, 'x'), std::string(2 << 20, '[')}) {
+    answer_ = {.status = 404, .body = body, .headers = kProblem};
+    const HttpAnswer answer = get("/");
+    expect_foreign(answer, "HTTP status 404");
+    EXPECT_LT(answer.body_bytes, 1U << 18U);
+  }
 }
 
 TEST_F(TransportTest, ABodyBeyondTheLimitIsRefused) {

@@ -1,0 +1,92 @@
+// The entries of a cache's file, as cache.sql lays them out, and which of them are forgotten.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schema/base/bytes.h"
+#include "schema/base/result.h"
+#include "schema/store/sqlite.h"
+
+namespace milepost {
+
+// Names one entry. Everything under a build is immutable, so an entry never goes stale.
+struct CacheKey {
+  std::string map;
+  std::string build;
+  std::string segment;       // empty: of the whole map
+  std::string layer;         // empty: a document
+  std::uint32_t number = 0;  // the tile's index, or the cell's number
+
+  static CacheKey map_document(std::string map, std::string build) {
+    return {std::move(map), std::move(build), "", "", 0};
+  }
+  // The index of the map's cells.
+  static CacheKey areas_document(std::string map, std::string build) {
+    return {std::move(map), std::move(build), "", "", 1};
+  }
+  static CacheKey segment_document(std::string map, std::string build, std::string segment) {
+    return {std::move(map), std::move(build), std::move(segment), "", 0};
+  }
+};
+
+struct CachedDocument {
+  CacheKey key;
+  std::string content;
+};
+
+// The entries of one open file. Nothing that the file says of itself is believed: contents are
+// compared with their digests, the bytes of all entries are counted anew now and then, and numbers
+// of uses that cannot be are replaced.
+// Errors of all: corrupt or invalid_input (the file breaks the rules of its own tables), io,
+// unavailable (locked by another process). Not safe to use from several threads at once.
+class CacheEntries {
+ public:
+  // An entry that was found.
+  struct Found {
+    Bytes content;
+    bool sound = false;  // the content has the digest and the size that were stored with it
+  };
+
+  CacheEntries(sqlite::Database database, std::uint64_t limit_bytes);
+
+  // Checks the bytes of all entries, and removes what is beyond the limit.
+  Status check_total();
+
+  Result<std::optional<Found>> find(const CacheKey& key);
+  // Counts as the latest use of the entry, if it is there.
+  Status mark_used(const CacheKey& key);
+  // Adds or replaces an entry, and removes the least recently used ones beyond the limit.
+  // REQUIRES: the content is not longer than the limit.
+  Status store(const CacheKey& key, ByteView content);
+  Status remove(const CacheKey& key);
+  // The segment documents of each map's most recently used build.
+  Result<std::vector<CachedDocument>> segment_documents();
+  // The map document of each map's most recently used build, by the map's name.
+  Result<std::vector<CachedDocument>> map_documents();
+  Result<std::uint64_t> bytes();
+
+ private:
+  Result<bool> total_is_right();
+  Result<bool> total_is_possible();
+  Status count_anew();
+  Status evict();
+  Status replace(const CacheKey& key, ByteView content);
+  Status mark_used_now(const CacheKey& key);
+  Result<std::int64_t> next_use();
+  Result<std::optional<std::int64_t>> latest_use();
+  Status number_uses_anew();
+  Error damaged(const std::string& what) const;
+  Status in_transaction(const std::function<Status()>& work);
+  Result<std::vector<CachedDocument>> documents(const char* query);
+
+  sqlite::Database database_;
+  std::int64_t limit_bytes_;
+  int evicted_since_count_ = 0;  // entries
+};
+
+}  // namespace milepost
