@@ -1,5 +1,6 @@
 // Writes well-formed inputs for each fuzz target: FOLDER/TARGET/NAME.
 // usage: fuzz-seeds FOLDER
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -8,6 +9,7 @@
 #include <string_view>
 
 #include "schema/feature/types.h"
+#include "schema/store/sqlite.h"
 #include "schema/tile/codec.h"
 #include "schema/tile/frame.h"
 #include "tests/client/fetch/fake_map.h"
@@ -141,9 +143,19 @@ void write_tiles(const SeedFolder& seeds) {
   write_tile(seeds, 'w', encode_walls(walls()));
 }
 
+// Small pages make a small file, in which more of the bytes mean something.
+void shrink(const fs::path& map) {
+  Result<sqlite::Database> database = sqlite::Database::open(map, sqlite::Access::read_write);
+  if (!database || !database->execute("PRAGMA page_size = 512; VACUUM")) std::abort();
+}
+
 void write_maps(const SeedFolder& seeds) {
-  server::write_town(seeds.file("map_index", "town"), 20);
-  server::write_walls(seeds.file("map_index", "walls"), {server::kTownCells[0]});
+  const fs::path town = seeds.file("map_index", "town");
+  server::write_town(town, 20);
+  shrink(town);
+  const fs::path walls = seeds.file("map_index", "walls");
+  server::write_walls(walls, {server::kTownCells[0]});
+  shrink(walls);
 }
 
 }  // namespace
