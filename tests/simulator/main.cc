@@ -3,11 +3,13 @@
 #include <cmath>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "schema/base/output_file.h"
 #include "schema/command/command.h"
 #include "tests/simulator/aerial.h"
 #include "tests/simulator/record.h"
@@ -169,6 +171,19 @@ Status photograph(const Options& options, int threads) {
                           options.ortho, threads, progress_on(line, options.ortho, "row"));
 }
 
+bool begins_tiff(std::string_view head) {
+  return head.starts_with(std::string_view("II*\0", 4)) || head.starts_with("II+");
+}
+
+constexpr OutputKind kOrthoimageOutput = {"a TIFF image", begins_tiff, false};
+
+Status check_files(const Options& options) {
+  std::vector<Output> outputs;
+  if (!options.ortho.empty()) outputs.push_back({"--ortho", options.ortho, &kOrthoimageOutput});
+  if (!options.walls.empty()) outputs.push_back({"--walls", options.walls, &kGeoJsonOutput});
+  return check_outputs(outputs, {});
+}
+
 void list(const std::vector<RunPlan>& runs) {
   for (const RunPlan& run : runs) {
     std::cout << run.route << "  " << run.name << "  "
@@ -192,6 +207,7 @@ int run(const Options& options) {
     fail(kProgram, runs.error());
     return kExitWrongCall;
   }
+  if (const Status free = check_files(options); !free) return fail(kProgram, free.error());
   cv::setNumThreads(1);  // one picture a thread
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int threads = options.threads > 0 ? options.threads : cores;

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
+#include "schema/base/file.h"
 #include "schema/drive/drive.h"
 #include "tests/support/temp_folder.h"
 
@@ -88,6 +90,18 @@ TEST(SimulatorCommand, RefusesAWrongCall) {
   const Outcome outcome = run_simulator("--out /nowhere --route nowhere");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("there is no route 'nowhere'"));
+}
+
+TEST(SimulatorCommand, ReplacesNoFileOfAnotherKind) {
+  const testing::TempFolder folder;
+  const std::filesystem::path letter = folder / "letter.txt";
+  ASSERT_TRUE(write_text_file(letter, "Dear reader").ok());
+  for (const std::string option : {"--ortho", "--walls"}) {
+    const Outcome outcome = run_simulator(option + " " + letter.string());
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr("letter.txt: the file that is there is not a "));
+    EXPECT_EQ(*read_text_file(letter), "Dear reader");
+  }
 }
 
 TEST(SimulatorCommand, NamesWhatFailedInOneLine) {
