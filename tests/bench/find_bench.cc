@@ -69,12 +69,12 @@ int main(int argc, char** argv) {
     bare_ms.push_back(1000 * bare_s);
     find_ms.push_back(1000 * find_s);
   }
-  const double frames = static_cast<double>(drive->frames.size());
+  const auto frame_count = static_cast<double>(drive->frames.size());
   std::printf(
       "finder / bare LSD and ORB = %.2f of the sums   (%s, %zu particles, %zu frames; finder %.1f "
       "ms "
       "a frame in the mean, %.1f in the median; bare %.1f ms)\n",
       find_total_s / bare_total_s, drive->name.c_str(), settings.particles, drive->frames.size(),
-      1000 * find_total_s / frames, bench::median(find_ms), bench::median(bare_ms));
+      1000 * find_total_s / frame_count, bench::median(find_ms), bench::median(bare_ms));
   return 0;
 }
