@@ -233,17 +233,18 @@ class GroundSurvey {
 
 }  // namespace
 
-Result<ImageGround> ground_of(GDALDataset& image, const std::string& given, const fs::path& file) {
-  Result<OGRSpatialReference> reference = reference_of(image, given, file);
-  if (!reference) return reference.error();
-  const Result<GroundSurvey> survey = GroundSurvey::of(image, *reference, file);
+Result<ImageGround> ground_of(GDALDataset& image, const std::string& reference,
+                              const fs::path& file) {
+  Result<OGRSpatialReference> own = reference_of(image, reference, file);
+  if (!own) return own.error();
+  const Result<GroundSurvey> survey = GroundSurvey::of(image, *own, file);
   if (!survey) return survey.error();
-  if (survey->is_within_reference()) return survey->check(wkt_of(*reference));
+  if (survey->is_within_reference()) return survey->check(wkt_of(*own));
 
-  const std::string beyond = going_on_beyond_180(*reference);
-  reference->SetFromUserInput(beyond.c_str());
-  reference->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  const Result<GroundSurvey> again = GroundSurvey::of(image, *reference, file);
+  const std::string beyond = going_on_beyond_180(*own);
+  own->SetFromUserInput(beyond.c_str());
+  own->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const Result<GroundSurvey> again = GroundSurvey::of(image, *own, file);
   if (!again) return again.error();
   Result<ImageGround> ground = again->check(beyond);
   if (ground) ground->goes_beyond_180 = true;

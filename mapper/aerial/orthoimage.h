@@ -55,7 +55,7 @@ class Orthoimage {
   // No pixels are read but a sample of a band of transparency. Errors: not_found; those of
   // bands_named, bands_by_tags, check_bands and ground_of; invalid_input (no image, or one of which
   // no small part can be read for itself).
-  static Result<Orthoimage> open(const ImageSource& source, double metres_per_pixel);
+  static Result<Orthoimage> open(const ImageSource& from, double metres_per_pixel);
 
   Orthoimage(Orthoimage&&) noexcept;
   Orthoimage& operator=(Orthoimage&&) noexcept;

@@ -16,7 +16,8 @@ using GeographicLib::GeodesicLine;
 
 constexpr double kMaxSpanDeg = 0.1 - 2e-8;  // FORMAT.md 6.4, less what rounding to steps may add
 constexpr double kShortestM = 0.001;        // about a step of latitude
-constexpr int kHalvings = 60;               // of a wall, to find where it meets a meridian
+constexpr std::size_t kMaxMorePieces = 1'000'000;  // than walls
+constexpr int kHalvings = 60;                      // of a wall, to find where it meets a meridian
 
 bool is_on_earth(const WallEnd& end) {
   return is_valid(GeoPoint{end.latitude_deg, end.longitude_deg, 0});
@@ -120,6 +121,11 @@ Result<std::vector<Wall>> storable_walls(const std::vector<Wall>& walls) {
       pieces.push_back(wall);
     } else {
       WallCutter(wall, pieces).cut();
+    }
+    if (pieces.size() > walls.size() + kMaxMorePieces) {
+      return Error{ErrorCode::invalid_input, "walls near a pole",
+                   "they would be cut into more than a million pieces",
+                   "leave out those about the pole"};
     }
   }
   for (Wall& piece : pieces) piece = quantized(piece);

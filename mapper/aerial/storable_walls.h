@@ -12,7 +12,8 @@ namespace milepost {
 // length are left out. A wall is the shorter geodesic between its ends. Across longitude 180 it
 // becomes two, one on either side (RFC 7946, 3.1.9); one that spans more than 0.1 degrees of
 // longitude, as near a pole, becomes several, and what lies within a metre of a pole is lost. All
-// others keep their ends. Errors: invalid_input (an end that is no place on the Earth).
+// others keep their ends. Errors: invalid_input (an end that is no place on the
+// Earth; more than a million pieces too many).
 Result<std::vector<Wall>> storable_walls(const std::vector<Wall>& walls);
 
 }  // namespace milepost

@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kLayer = "walls";
+constexpr std::size_t kMaxCopies = 20'000'000;  // of walls in a second and further cells
 
 Status copy_segment(const MapReader& from, const std::string& id, MapWriter& to) {
   const Result<StoredSegment> segment = from.segment(id);
@@ -81,6 +82,24 @@ Status add_walls(const std::vector<WallTile>& tiles, const fs::path& map_file, M
   return ok_status();
 }
 
+std::size_t cells_of(const Wall& wall) {
+  const Bounds box = bounds_of(wall);
+  const GridCell first = GridCell::at(box.south_deg, box.west_deg);
+  const GridCell last = GridCell::at(box.north_deg, box.east_deg);
+  return std::size_t{last.row - first.row + 1} * (last.column - first.column + 1);
+}
+
+// Whether the tiles fit into memory: a wall is whole in each cell that its box meets.
+Status check_copies(const std::vector<Wall>& walls, const fs::path& map_file) {
+  std::size_t copies = 0;
+  for (const Wall& wall : walls) copies += cells_of(wall) - 1;
+  if (copies <= kMaxCopies) return ok_status();
+  return Error{ErrorCode::invalid_input, map_file.string(),
+               "its walls are so long that their cells would hold " +
+                   std::to_string(copies + walls.size()) + " of them",
+               "leave out outlines that are not of buildings"};
+}
+
 double total_length_m(const std::vector<Wall>& walls) {
   double length_m = 0;
   for (const Wall& wall : walls) {
@@ -96,6 +115,7 @@ Result<WallLayerReport> write_wall_layer(const fs::path& map_file, const std::ve
                                          const std::string& parameters_json) {
   const Result<std::vector<Wall>> storable = storable_walls(walls);
   if (!storable) return storable.error();
+  if (const Status status = check_copies(*storable, map_file); !status) return status.error();
   Result<MapWriter> writer = MapWriter::create(map_file);
   if (!writer) return writer.error();
   std::error_code ignored;

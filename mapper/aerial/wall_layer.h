@@ -18,9 +18,10 @@ struct WallLayerReport {
 };
 
 // Writes a map with the walls in the layer `walls`, as storable_walls cuts them. Where `map_file`
-// exists, all else that it holds is kept and only this layer is replaced. The file appears whole or
-// not at all. `parameters_json` are the layer's. Errors: corrupt (the old map), invalid_input (too
-// many walls in one place, those of storable_walls), io.
+// exists, all else that it holds is kept and only this layer is replaced. The file appears whole
+// or not at all, and our readers take what it holds. `parameters_json` are the layer's. Errors:
+// corrupt (the old map), invalid_input (too many walls in one place or walls in too many, those of
+// storable_walls), io.
 Result<WallLayerReport> write_wall_layer(const std::filesystem::path& map_file,
                                          const std::vector<Wall>& walls,
                                          const std::string& parameters_json);

@@ -102,6 +102,13 @@ TEST(StorableWalls, EndsThatAreNoPlacesAreRefused) {
   }
 }
 
+TEST(StorableWalls, TheNumberOfPiecesIsBounded) {
+  const std::vector<Wall> walls(1000, {{89.999, 10}, {89.999, -171}, 0.5});
+  const Result<std::vector<Wall>> pieces = storable_walls(walls);
+  ASSERT_FALSE(pieces.ok());
+  EXPECT_THAT(pieces.error().line(), HasSubstr("more than a million pieces"));
+}
+
 // Whatever is written can be read: walls of up to 300 m all over the Earth, most of them near a
 // pole or longitude 180, and steps that round to just above 0.1 degrees.
 TEST(StorableWalls, OurReadersTakeThemAll) {

@@ -125,6 +125,19 @@ TEST(WallLayer, WhatOurReadersRefuseIsCutOrLeftOut) {
   for (const Wall& wall : walls) EXPECT_NE(wall.begin, wall.end);
 }
 
+TEST(WallLayer, WallsLikeBordersOfCountriesAreRefused) {
+  const TempFolder folder;
+  std::vector<Wall> walls;
+  walls.reserve(50000);
+  for (int i = 0; i < 50000; ++i) {
+    walls.push_back({{49 + 1e-6 * i, 8}, {49.0999 + 1e-6 * i, 8.0999}, 0.5});
+  }
+  const auto refused = write_wall_layer(folder / "town.map", walls, kParameters);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().line().find("so long"), std::string::npos) << refused.error().line();
+  EXPECT_FALSE(std::filesystem::exists(folder / "town.map"));
+}
+
 TEST(WallLayer, AWallThatIsNowhereIsRefused) {
   const TempFolder folder;
   EXPECT_FALSE(
