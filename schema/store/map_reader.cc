@@ -78,6 +78,11 @@ bool is_sound(const Rows& row) {
              .ok();
 }
 
+// It is not quoted: what is no id may be no text either.
+Status malformed_name(const std::string& where, const std::string& whose) {
+  return corrupt(where, whose + " name is malformed");
+}
+
 // What breaks a check is the file's fault here, not the caller's.
 Status as_corrupt(const Status& checked) {
   return checked.ok() ? checked : corrupt(checked.error().where, checked.error().what);
@@ -146,20 +151,16 @@ struct MapReader::Impl {
   Status read_lists() {
     Status status =
         for_each_row(database, "SELECT name, parameters FROM layers", [&](const Rows& row) {
-          if (!is_layer_name(row->text(0))) return named_wrongly("layer", row->text(0));
+          if (!is_layer_name(row->text(0))) return malformed_name(place(), "a layer's");
           layers[row->text(0)] = row->text(1);
           return ok_status();
         });
     if (!status.ok()) return status;
     return for_each_row(database, "SELECT id FROM segments ORDER BY id", [&](const Rows& row) {
-      if (!is_segment_id(row->text(0))) return named_wrongly("segment", row->text(0));
+      if (!is_segment_id(row->text(0))) return malformed_name(place(), "a segment's");
       segment_ids.push_back(row->text(0));
       return ok_status();
     });
-  }
-
-  Status named_wrongly(const std::string& what, const std::string& name) const {
-    return corrupt(place(), "the name of a " + what + ", '" + name + "', is no id");
   }
 
   Error no_segment(const std::string& id) const {
@@ -208,6 +209,9 @@ struct MapReader::Impl {
       const Result<bool> more = row.next();
       if (!more) return more.error();
       if (!*more) return ok_status();
+      if (!is_segment_id(row->text(0))) {
+        return malformed_name(place() + ", segment " + segment.id, "a successor's");
+      }
       segment.successors.push_back(row->text(0));
     }
   }

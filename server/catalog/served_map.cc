@@ -1,6 +1,5 @@
 #include "server/catalog/served_map.h"
 
-#include "schema/base/ids.h"
 #include "server/catalog/map_documents.h"
 
 namespace milepost::server {
@@ -13,11 +12,6 @@ Result<RouteLine> line_of(const StoredSegment& segment) {
     points.push_back({vertex.latitude_deg, vertex.longitude_deg, vertex.altitude_m});
   }
   return RouteLine::from_vertices(std::move(points));
-}
-
-// Such a name has no address.
-Error malformed_name(const std::string& where, const std::string& whose) {
-  return {ErrorCode::corrupt, where, whose + " name is malformed", "build the map anew"};
 }
 
 // The store has checked the digest. The length was promised to the client before.
@@ -46,9 +40,6 @@ Result<std::shared_ptr<const ServedMap>> ServedMap::open(const std::string& name
 Status ServedMap::load(const MapReader& reader) {
   build_ = reader.build();
   layers_ = reader.layers();
-  for (const auto& [layer, parameters] : layers_) {
-    if (!is_layer_name(layer)) return malformed_name(file_.string(), "a layer's");
-  }
   double length_m = 0;
   for (const std::string& id : reader.segment_ids()) {
     const Status loaded = load_segment(reader, id);
@@ -66,15 +57,13 @@ Status ServedMap::load(const MapReader& reader) {
 }
 
 Status ServedMap::load_segment(const MapReader& reader, const std::string& id) {
-  if (!is_segment_id(id)) return malformed_name(file_.string(), "a segment's");
-  const std::string where = file_.string() + ", segment " + id;
   Result<StoredSegment> stored = reader.segment(id);
   if (!stored) return stored.error();
-  for (const std::string& successor : stored->successors) {
-    if (!is_segment_id(successor)) return malformed_name(where, "a successor's");
-  }
   Result<RouteLine> line = line_of(*stored);
-  if (!line) return Error{ErrorCode::corrupt, where, line.error().what, "build the map anew"};
+  if (!line) {
+    return Error{ErrorCode::corrupt, file_.string() + ", segment " + id, line.error().what,
+                 "build the map anew"};
+  }
   std::map<std::string, std::vector<TileEntry>> tiles;
   for (const auto& [layer, parameters] : layers_) {
     Result<std::vector<TileEntry>> index = reader.tile_index(id, layer);

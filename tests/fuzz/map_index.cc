@@ -1,4 +1,5 @@
-// A map file with any bytes: everything that a server or a client reads of it.
+// A map file with any bytes: what a client reads of it ('c' as the first byte), or what a server
+// reads at its start ('s').
 #include <unistd.h>
 
 #include <cstdint>
@@ -54,13 +55,17 @@ void read_cells(const MapReader& map, const std::string& layer) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
   std::ofstream(map_file(), std::ios::binary | std::ios::trunc)
-      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+      .write(reinterpret_cast<const char*>(data) + 1, static_cast<std::streamsize>(size) - 1);
+  if (data[0] == 's') {
+    static_cast<void>(server::ServedMap::open("fuzz", map_file(), 1));
+    return 0;
+  }
   const Result<MapReader> map = MapReader::open(map_file());
   if (!map) return 0;
   for (const std::string& id : map->segment_ids()) read_segment(*map, id);
   for (const auto& [layer, parameters] : map->layers()) read_cells(*map, layer);
   static_cast<void>(map->verify());
-  static_cast<void>(server::ServedMap::open("fuzz", map_file(), 1));
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "schema/base/file.h"
 #include "schema/feature/types.h"
 #include "schema/store/sqlite.h"
 #include "schema/tile/codec.h"
@@ -30,11 +31,6 @@ class SeedFolder {
     fs::create_directories(root_ / target);
     std::ofstream(root_ / target / name, std::ios::binary)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  }
-
-  fs::path file(const std::string& target, const std::string& name) const {
-    fs::create_directories(root_ / target);
-    return root_ / target / name;
   }
 
  private:
@@ -144,18 +140,23 @@ void write_tiles(const SeedFolder& seeds) {
 }
 
 // Small pages make a small file, in which more of the bytes mean something.
-void shrink(const fs::path& map) {
+std::string shrunk(const fs::path& map) {
   Result<sqlite::Database> database = sqlite::Database::open(map, sqlite::Access::read_write);
   if (!database || !database->execute("PRAGMA page_size = 512; VACUUM")) std::abort();
+  return *read_text_file(map);
 }
 
 void write_maps(const SeedFolder& seeds) {
-  const fs::path town = seeds.file("map_index", "town");
-  server::write_town(town, 20);
-  shrink(town);
-  const fs::path walls = seeds.file("map_index", "walls");
-  server::write_walls(walls, {server::kTownCells[0]});
-  shrink(walls);
+  const server::TemporaryFolder folder;
+  const fs::path file = folder.path() / "seed.map";
+  server::write_town(file, 20);
+  const std::string town = shrunk(file);
+  server::write_walls(file, {server::kTownCells[0]});
+  const std::string walls = shrunk(file);
+  for (const std::string reader : {"c", "s"}) {
+    seeds.write("map_index", "town-" + reader, reader + town);
+    seeds.write("map_index", "walls-" + reader, reader + walls);
+  }
 }
 
 }  // namespace

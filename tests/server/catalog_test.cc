@@ -213,7 +213,7 @@ TEST_F(LeftOutTest, ParametersThatAreNestedTooDeep) {
 TEST_F(LeftOutTest, LineWithoutLength) {
   write_town(town_);
   change_town("DELETE FROM vertices WHERE segment = 's2'");
-  expect_left_out("town.map, segment s2", "a line needs two vertices or more");
+  expect_left_out("town.map, segment s2", "a line has two vertices or more");
 }
 
 // Such a name has no address, and no JSON text can hold it.

@@ -98,6 +98,51 @@ TEST_F(MapDamageTest, ABuildIsADigest) {
   EXPECT_THAT(open_error(), HasSubstr("town.map: the map's build is no digest"));
 }
 
+// No JSON text can hold the last one.
+TEST_F(MapDamageTest, NamesAreIds) {
+  for (const std::string name : {"x'2e2e'", "x'612f62'", "''", "x'73ff'"}) {
+    for (const std::string table : {"segments SET id", "layers SET name"}) {
+      testing::write_example(file_);
+      change("UPDATE OR REPLACE " + table + " = CAST(" + name + " AS TEXT)");
+      EXPECT_THAT(open_error(), HasSubstr("town.map: a ")) << table << name;
+      EXPECT_THAT(open_error(), HasSubstr("'s name is malformed; ")) << table << name;
+    }
+  }
+}
+
+TEST_F(MapDamageTest, BoundsAreDegrees) {
+  for (const std::string value : {"9e999", "-181"}) {
+    testing::write_example(file_);
+    change("UPDATE meta SET value = " + value + " WHERE key = 'west_deg'");
+    EXPECT_THAT(open_error(), HasSubstr("town.map: the map's bounds are not in degrees"));
+  }
+}
+
+TEST_F(MapDamageTest, SegmentsAreWhatAWriterTakes) {
+  const auto segment_error = [&](const std::string& sql) {
+    testing::write_example(file_);
+    change(sql);
+    const auto reader = MapReader::open(file_);
+    if (!reader.ok()) return "cannot be opened: " + reader.error().line();
+    const auto segment = reader->segment("east");
+    if (segment.ok()) return std::string("no error");
+    EXPECT_EQ(segment.error().code, ErrorCode::corrupt);
+    return segment.error().line();
+  };
+  EXPECT_THAT(segment_error("UPDATE vertices SET latitude_deg = 91 WHERE position = 1"),
+              HasSubstr("town.map, segment east, vertex 1: the position is not in degrees"));
+  EXPECT_THAT(segment_error("UPDATE vertices SET altitude_m = 9e999 WHERE position = 0"),
+              HasSubstr("town.map, segment east, vertex 0: the altitude is more than 100 km"));
+  EXPECT_THAT(segment_error("UPDATE vertices SET along_m = -1 WHERE position = 1"),
+              HasSubstr("town.map, segment east, vertex 1: the along does not ascend"));
+  EXPECT_THAT(segment_error("DELETE FROM vertices"),
+              HasSubstr("town.map, segment east: a line has two vertices or more"));
+  EXPECT_THAT(segment_error("UPDATE segments SET length_m = 0"),
+              HasSubstr("town.map, segment east: the length is not above 0"));
+  EXPECT_THAT(segment_error("UPDATE successors SET successor = CAST(x'73ff' AS TEXT)"),
+              HasSubstr("town.map, segment east: a successor's name is malformed"));
+}
+
 TEST_F(MapDamageTest, ATruncatedFileIsRefused) {
   const std::string whole = testing::content_of(file_);
   constexpr std::size_t kPage = 4096;
