@@ -14,14 +14,15 @@ Error too_large(const std::string& what) {
   return {ErrorCode::corrupt, "", "it " + what, "give a smaller document"};
 }
 
-// The parser's explanation without the library's own error number, on one line.
+// The parser's explanation without the library's own error number, on one line. It quotes what it
+// read last, which may be no text.
 std::string reason_of(const nlohmann::json::exception& error) {
   std::string text = error.what();
   const std::size_t end = text.find("] ");
   if (end != std::string::npos) text.erase(0, end + 2);
   if (text.size() > kMaxReasonBytes) text = text.substr(0, kMaxReasonBytes) + "...";
   for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f) c = '?';
   }
   return text;
 }

@@ -59,6 +59,7 @@ TEST(Json, ErrorsAreOneShortLine) {
   const std::string line = refusal("[\"" + repeated("long\\u0020", 10000) + "\n\"]");
   EXPECT_LT(line.size(), 400U);
   EXPECT_EQ(line.find('\n'), std::string::npos);
+  EXPECT_THAT(refusal("[\"Stra\xdf"), HasSubstr("last read: '\"Stra?')"));
 }
 
 TEST(Json, DeepNestingIsRefused) {
