@@ -5,9 +5,8 @@ import signal
 import sqlite3
 import struct
 import subprocess
-import time
 
-from commands import CommandTest, MAPPER, STREET, main, run
+from commands import CommandTest, MAPPER, STREET, main, run, wait_until_caught
 
 PIXEL_M = 0.2
 MERCATOR = 3857
@@ -337,7 +336,7 @@ class Aerial(CommandTest):
             with self.subTest(stop=stop.name):
                 process = subprocess.Popen([MAPPER, "aerial", "--image", image, "--map", self.map],
                                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-                time.sleep(1)
+                wait_until_caught(process, signal.SIGINT)
                 self.assertIsNone(process.poll(), "it was done before it was stopped")
                 process.send_signal(stop)
                 _, said = process.communicate(timeout=120)

@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 MAPPER = os.environ.get("MILEPOST_MAPPER", "")
@@ -22,6 +23,15 @@ def run(*words, timeout=600):
     """Runs a command to its end and returns it with its output as text."""
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=timeout,
                           stdin=subprocess.DEVNULL, check=False)
+
+
+def wait_until_caught(process, stop):
+    """Waits until a process has a handler for a signal, as the kernel tells it, or has ended."""
+    while process.poll() is None:
+        status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
+        if int(re.search(r"SigCgt:\s*(\w+)", status).group(1), 16) >> (stop - 1) & 1:
+            return
+        time.sleep(0.01)
 
 
 class Server:
