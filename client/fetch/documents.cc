@@ -6,13 +6,11 @@
 #include "client/fetch/json_fields.h"
 #include "schema/base/digest.h"
 #include "schema/base/ids.h"
+#include "schema/store/map_checks.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kMaxAlong_m = 1e8;  // beyond twice around the Earth
-constexpr double kMaxAltitude_m = 1e5;
-constexpr std::uint64_t kMaxTileBytes = 256ULL << 20U;
 constexpr std::uint32_t kLastCell = kCellRows * kCellColumns - 1;
 
 std::string segment_id(JsonFields& fields, const Json& object, const char* key) {
@@ -29,7 +27,7 @@ MapVersion version_of(JsonFields& fields, const Json& json, const char* name_key
 
 GeoPoint vertex_of(JsonFields& fields, const Json& point) {
   return {fields.number_at(point, 0, -90, 90), fields.number_at(point, 1, -180, 180),
-          fields.number_at(point, 2, -kMaxAltitude_m, kMaxAltitude_m)};
+          fields.number_at(point, 2, -kMaxAltitudeM, kMaxAltitudeM)};
 }
 
 std::vector<std::string> successors_of(JsonFields& fields, const Json& json) {
@@ -46,7 +44,7 @@ std::vector<std::string> successors_of(JsonFields& fields, const Json& json) {
 template <class Entry>
 void read_stored(JsonFields& fields, const Json& json, Entry& entry) {
   entry.items = fields.whole(json, "items", std::numeric_limits<std::uint64_t>::max());
-  entry.bytes = fields.whole(json, "bytes", kMaxTileBytes);
+  entry.bytes = fields.whole(json, "bytes", kMaxFrameBytes);
   entry.digest = fields.text(json, "digest");
   if (fields.ok() && entry.bytes == 0) fields.fail("a tile without bytes");
   if (fields.ok() && !is_digest(entry.digest)) fields.fail("\"digest\" is no digest");
@@ -56,8 +54,8 @@ TileEntry tile_entry_of(JsonFields& fields, const Json& json) {
   TileEntry entry;
   entry.index = static_cast<std::uint32_t>(
       fields.whole(json, "index", std::numeric_limits<std::uint32_t>::max()));
-  entry.along.from_m = fields.number(json, "from_m", -kMaxAlong_m, kMaxAlong_m);
-  entry.along.to_m = fields.number(json, "to_m", entry.along.from_m, kMaxAlong_m);
+  entry.along.from_m = fields.number(json, "from_m", -kMaxAlongM, kMaxAlongM);
+  entry.along.to_m = fields.number(json, "to_m", entry.along.from_m, kMaxAlongM);
   read_stored(fields, json, entry);
   return entry;
 }
@@ -122,9 +120,9 @@ NearbySegment nearby_of(JsonFields& fields, const Json& json) {
   NearbySegment near;
   near.version = version_of(fields, json, "map");
   near.segment = segment_id(fields, json, "segment");
-  near.length_m = fields.number(json, "length_m", 0, kMaxAlong_m);
-  near.along_m = fields.number(json, "along_m", 0, kMaxAlong_m);
-  near.distance_m = fields.number(json, "distance_m", 0, kMaxAlong_m);
+  near.length_m = fields.number(json, "length_m", 0, kMaxAlongM);
+  near.along_m = fields.number(json, "along_m", 0, kMaxAlongM);
+  near.distance_m = fields.number(json, "distance_m", 0, kMaxAlongM);
   return near;
 }
 
@@ -186,7 +184,7 @@ Result<SegmentDocument> parse_segment_document(std::string_view text, const std:
   check_is_about(fields, segment, fields.text(json, "segment"));
   SegmentDocument document;
   document.description.id = segment;
-  document.description.length_m = fields.number(json, "length_m", 0, kMaxAlong_m);
+  document.description.length_m = fields.number(json, "length_m", 0, kMaxAlongM);
   for (const Json& point : fields.array(json, "line")) {
     document.description.vertices.push_back(vertex_of(fields, point));
   }
