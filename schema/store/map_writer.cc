@@ -1,10 +1,9 @@
 #include <system_error>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "schema/base/digest.h"
 #include "schema/base/file.h"
+#include "schema/base/json.h"
 #include "schema/store/map_checks.h"
 #include "schema/store/map_content.h"
 #include "schema/store/map_output.h"
@@ -46,8 +45,8 @@ Error wrong_call(const fs::path& file, const std::string& what) {
 
 // Readers parse what they are told of a layer or a feature.
 bool is_json_object(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != std::string::npos && text[first] == '{' && nlohmann::json::accept(text);
+  const Result<nlohmann::json> json = read_json(text);
+  return json && json->is_object();
 }
 
 // The database of a map in the making. The statements go before the connection they belong to.

@@ -181,7 +181,10 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
     EXPECT_EQ(status.error().line(), file_.string() + what);
   };
   expect_refused(map.add_layer("", "{}"), ": '' is no layer's name");
-  for (const char* json : {"", "[]", "{", "{} {}", "{\"a\": NaN}", "{\"a\": \"\xff\"}"}) {
+  const std::string deep = "{\"a\": " + std::string(40, '[') + std::string(40, ']') + "}";
+  for (const std::string& json :
+       {std::string(), std::string("[]"), std::string("{"), std::string("{} {}"),
+        std::string("{\"a\": NaN}"), std::string("{\"a\": \"\xff\"}"), deep}) {
     expect_refused(map.add_layer("l", json),
                    ": the parameters of layer l are no JSON object (FORMAT.md 2.4)");
     expect_refused(map.set_feature_json(json),
