@@ -37,22 +37,14 @@ constexpr const char* kQueries[] = {
     "SELECT frame FROM frames WHERE id = ?",
 };
 
-Result<std::int64_t> pragma(const sqlite::Database& map, const char* name) {
-  Result<sqlite::Statement> statement = map.prepare(std::string("PRAGMA ") + name);
-  if (!statement) return statement.error();
-  const Result<bool> row = statement->step();
-  if (!row) return row.error();
-  return statement->integer(0);
-}
-
 // Whether the file is a map of this format's version.
 Status check_format(const sqlite::Database& map) {
-  const Result<std::int64_t> application = pragma(map, "application_id");
+  const Result<std::int64_t> application = map.integer("PRAGMA application_id");
   if (!application) return application.error();
   if (*application != kMapApplicationId) {
     return corrupt(map.file().string(), "this is no milepost map");
   }
-  const Result<std::int64_t> version = pragma(map, "user_version");
+  const Result<std::int64_t> version = map.integer("PRAGMA user_version");
   if (!version) return version.error();
   if (*version == kMapFormatVersion) return ok_status();
   return Error{ErrorCode::corrupt, map.file().string(),
