@@ -1,22 +1,47 @@
 #include "schema/feature/extractor.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace milepost {
+namespace {
+
+constexpr double kBrightPart = 0.99;      // of the pixels are no brighter than its brightness
+constexpr double kBright = 150;           // brightness of frames in ordinary light
+constexpr double kLeastBrightness = 0.2;  // of that; noise is all that is left below
+
+// How bright a frame is, as part of ordinary light: [kLeastBrightness, 1].
+double brightness_of(const cv::Mat& gray) {
+  constexpr int kBins = 256;
+  constexpr int kChannel = 0;
+  constexpr float kRange[] = {0, kBins};
+  const float* ranges = kRange;
+  cv::Mat histogram;
+  cv::calcHist(&gray, 1, &kChannel, cv::noArray(), histogram, 1, &kBins, &ranges);
+  const double wanted = kBrightPart * static_cast<double>(gray.total());
+  double pixels = 0;
+  int bright = 0;
+  for (; bright < kBins - 1; ++bright) {
+    pixels += histogram.at<float>(bright);
+    if (pixels >= wanted) break;
+  }
+  return std::clamp(bright / kBright, kLeastBrightness, 1.0);
+}
+
+}  // namespace
 
 struct FeatureExtractor::Impl {
-  cv::Ptr<cv::SIFT> sift;
+  FeatureParameters parameters;
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
 };
 
 FeatureExtractor::FeatureExtractor(const FeatureParameters& parameters)
     : impl_(std::make_unique<Impl>()) {
-  impl_->sift = cv::SIFT::create(parameters.max_features, parameters.octave_layers,
-                                 parameters.contrast_threshold, parameters.edge_threshold,
-                                 parameters.sigma, CV_8U);
+  impl_->parameters = parameters;
 }
 
 FeatureExtractor::~FeatureExtractor() = default;
@@ -24,7 +49,13 @@ FeatureExtractor::FeatureExtractor(FeatureExtractor&&) noexcept = default;
 FeatureExtractor& FeatureExtractor::operator=(FeatureExtractor&&) noexcept = default;
 
 FeatureSet FeatureExtractor::extract(const cv::Mat& gray) {
-  impl_->sift->detectAndCompute(gray, cv::noArray(), impl_->keypoints, impl_->descriptors);
+  // In little light all contrasts are small, but the descriptors, which are of length one, the
+  // same.
+  const FeatureParameters& parameters = impl_->parameters;
+  const auto sift = cv::SIFT::create(parameters.max_features, parameters.octave_layers,
+                                     parameters.contrast_threshold * brightness_of(gray),
+                                     parameters.edge_threshold, parameters.sigma, CV_8U);
+  sift->detectAndCompute(gray, cv::noArray(), impl_->keypoints, impl_->descriptors);
   FeatureSet set;
   set.features.reserve(impl_->keypoints.size());
   set.descriptors.resize(impl_->keypoints.size());
