@@ -3,74 +3,77 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "client/localize/estimate.h"
 #include "client/localize/localizer.h"
+#include "client/localize/seen_frame.h"
 #include "client/localize/segment_session.h"
 #include "client/localize/tracker.h"
 
 namespace milepost {
 
-// Where a first look puts the camera.
-struct Sighting {
-  Measurement measurement;
-  double merit = 0;   // of several sightings in one frame, the one of the greatest is believed
-  AlongRange around;  // that was looked at
-};
-
 // What a frame said.
 struct Followed {
   bool measured = false;  // its measurement was taken in; else the motion carries on
   int matches = 0;        // that agree with it
+  // Logarithm of how much more likely the frame is from where the camera is followed than from
+  // elsewhere; 0 of a frame that says nothing.
+  double log_bayes_factor = 0;
   std::optional<Error> failure =
       std::nullopt;  // of the source, where it kept the frame from being measured
 };
 
-// Not safe to use from several threads at once. Errors of all: those of MapSource::tiles, corrupt.
+// One belief of where the camera is on a segment. Not safe to use from several threads at once.
 class Follower {
  public:
   virtual ~Follower() = default;
 
-  // Looks for the camera in `around`; nothing where the frame is no evidence.
-  virtual Result<std::optional<Sighting>> find(const QueryFrame& frame,
-                                               const AlongRange& around) = 0;
-  // Begins to follow from what find() saw in the same frame. The matches that agree.
-  virtual Result<int> start(const QueryFrame& frame, const Sighting& sighting) = 0;
-
-  // All below REQUIRE start().
   // Takes in what the wheels say, of now or since the last frame. Methods without a use for it, as
   // the papers', ignore it.
   virtual void observe(const Odometry& /*odometry*/) {}
   // Where the camera is expected at a time after the last frame's.
   virtual double expected_along_m(double timestamp_s) const = 0;
-  // Follows to the next frame.
-  virtual Followed follow(const QueryFrame& frame) = 0;
+  // Follows to the next frame. What speaks against the place is not taken in.
+  virtual Followed follow(SeenFrame& frame) = 0;
   virtual TrackedPosition position() const = 0;
 };
 
+// Where a first look puts the camera, and what follows it from there.
+struct Sighting {
+  std::unique_ptr<Follower> follower;
+  int matches = 0;  // that agree
+  double log_bayes_factor = 0;
+};
+
+// Looks for the camera on one segment. Not safe to use from several threads at once.
+class Scout {
+ public:
+  virtual ~Scout() = default;
+
+  // The places in `around` that this frame may have been taken from, the most likely first.
+  // Errors: those of MapSource::tiles, corrupt.
+  virtual Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) = 0;
+};
+
 // By tracklets: matches, their combination, a tracker.
-std::unique_ptr<Follower> make_tracklet_follower(const SegmentSession& session,
-                                                 const QueryCamera& camera,
-                                                 const LocalizerSettings& settings,
-                                                 const TrackletMethod& method);
+std::unique_ptr<Scout> make_tracklet_scout(const SegmentSession& session, const QueryCamera& camera,
+                                           const LocalizerSettings& settings,
+                                           const TrackletMethod& method);
 
 // By landmarks: matches, a pose, and the belief that carries it on.
 // REQUIRES: a layer of landmarks, so that the session has a codebook.
-std::unique_ptr<Follower> make_landmark_follower(const SegmentSession& session,
-                                                 const QueryCamera& camera,
-                                                 const LocalizerSettings& settings,
-                                                 const LandmarkMethod& method);
+std::unique_ptr<Scout> make_landmark_scout(const SegmentSession& session, const QueryCamera& camera,
+                                           const LocalizerSettings& settings,
+                                           const LandmarkMethod& method);
 
 // By whole frames: dynamic time warping.
-std::unique_ptr<Follower> make_warp_follower(const SegmentSession& session,
-                                             const QueryCamera& camera,
-                                             const LocalizerSettings& settings,
-                                             const WarpMethod& method);
+std::unique_ptr<Scout> make_warp_scout(const SegmentSession& session, const QueryCamera& camera,
+                                       const LocalizerSettings& settings, const WarpMethod& method);
 
-// As the method of the settings does. REQUIRES: `session` outlives the follower.
+// As the method of the settings does. REQUIRES: `session` outlives the scout and its followers.
 // Errors: corrupt (the layer holds other items than the method needs).
-Result<std::unique_ptr<Follower>> make_follower(const SegmentSession& session,
-                                                const QueryCamera& camera,
-                                                const LocalizerSettings& settings);
+Result<std::unique_ptr<Scout>> make_scout(const SegmentSession& session, const QueryCamera& camera,
+                                          const LocalizerSettings& settings);
 
 }  // namespace milepost

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <variant>
 
 #include "client/localize/follower.h"
 #include "client/localize/segment_session.h"
@@ -12,12 +14,60 @@ namespace {
 constexpr double kMaxStartTurnDeg = 60;    // between a heading that is known and a segment's
 constexpr double kCoarseSpeedMps = 20;     // how fast a coarse position grows old
 constexpr double kMaxOdometryAgeS = 0.5;   // at a start
-constexpr std::size_t kMaxCandidates = 4;  // segments tried at a start
-constexpr double kEndMarginM = 3;          // the vehicle may be so far beyond a segment's ends
+constexpr std::size_t kMaxCandidates = 4;  // segments searched
+constexpr double kEndMarginM = 5;          // the vehicle may be so far beyond a segment's ends
+constexpr double kSamePlaceM = 4;          // two beliefs so near to each other are one
+constexpr double kMinLogOdds = -4;         // below which a place is not pursued
+constexpr double kElsewhereM = 5;          // how far off elsewhere is at least ...
+constexpr double kUnknownM = 30;           // ... and where no receiver tells
+constexpr double kDoubt = -1;              // a frame that says less leaves the place in doubt
 
-struct Start {
-  Sighting sighting;
-  NearbySegment where;
+// A segment that is looked at.
+struct OpenSegment {
+  SegmentSession session;
+  std::unique_ptr<Scout> scout;
+};
+
+// One place where the camera may be, with the odds that it is, against elsewhere.
+struct Place {
+  std::shared_ptr<OpenSegment> segment;
+  std::unique_ptr<Follower> follower;
+  PlaceOdds odds;
+  ReceiverEvidence receiver;
+  double timestamp_s = 0;       // of the last frame
+  bool measured = false;        // ... was it
+  double log_bayes_factor = 0;  // ... what did it say
+  int matches = 0;
+  bool weighed = false;  // ... is that part of the odds
+
+  const SegmentSession& session() const { return segment->session; }
+  GeoPoint position() const {
+    const TrackedPosition at = follower->position();
+    return at.across ? at.across->position : session().line.point_at(at.along_m);
+  }
+  bool is_on_segment(double along_m) const {
+    return along_m >= -kEndMarginM && along_m <= session().line.length_m() + kEndMarginM;
+  }
+};
+
+// No place is claimed: those that may be it are weighed against each other and elsewhere.
+struct Searching {
+  FixStatus waiting =
+      FixStatus::initializing;  // what to say until one is: initializing, lost, off_map
+  std::vector<Place> places = {};
+  std::optional<CoarsePosition> lost_at = {};  // where the place was that was followed last
+  std::optional<Place> left = {};              // ... that went over an end of its segment
+
+  void leave(Place place) {
+    waiting = FixStatus::off_map;
+    left = std::move(place);
+  }
+};
+
+// One place is claimed and followed.
+struct Following {
+  Place place;
+  int frames_without_measurement = 0;
 };
 
 }  // namespace
@@ -44,29 +94,88 @@ struct Localizer::Impl {
   LocalizerSettings settings;
   std::unique_ptr<Prefetcher> prefetcher;  // empty if turned off
 
-  std::optional<CoarsePosition> coarse;     // what a start goes by
-  std::optional<Odometry> odometry;         // the latest
-  std::unique_ptr<SegmentSession> session;  // the segment the vehicle is or last was on
-  std::unique_ptr<Follower> follower;       // with the session
-  bool tracked = false;                     // the follower was started and not given up
-  int frames_without_measurement = 0;
-  bool was_tracked = false;
+  std::optional<CoarsePosition> coarse;  // the receiver's latest
+  std::optional<Odometry> odometry;      // the latest
+  std::variant<Searching, Following> state = Searching{};
+  std::vector<std::shared_ptr<OpenSegment>> segments;  // opened last, the latest at the end
   double prefetched_to_m = 0;
   std::optional<Error> noted;
 
-  Result<Fix> start(const QueryFrame& frame);
-  Result<std::optional<Start>> find_start(const QueryFrame& frame,
-                                          const std::vector<NearbySegment>& candidates);
-  bool coarse_is_fresh(double timestamp_s) const;
-  bool may_be_followed(const NearbySegment& where) const;
-  bool is_contradicted(double timestamp_s) const;
-  Status enter(const NearbySegment& where);
-  Result<Fix> track(const QueryFrame& frame);
-  void leave(double timestamp_s);
-  void prefetch_ahead();
-  Fix unlocated(const QueryFrame& frame, FixStatus status) const;
-  Fix located(const QueryFrame& frame, FixStatus status, int matches) const;
+  Result<Fix> search(SeenFrame& frame);
+  Result<Fix> follow(SeenFrame& frame);
+
+  bool is_fresh(const std::optional<CoarsePosition>& position, double timestamp_s) const;
+  Result<double> scout(SeenFrame& frame, const CoarsePosition& around, Searching& searching);
+  Result<std::shared_ptr<OpenSegment>> opened(const NearbySegment& where);
+  Followed advance(Place& place, SeenFrame& frame) const;
+  void carry(Searching& searching, SeenFrame& frame);
+  void weigh(Place& place, double best, double timestamp_s) const;
+  void weigh(std::vector<Place>& places, double timestamp_s) const;
+  Fix weighed(Searching& searching, double timestamp_s);
+  void claim(Place place);
+  void prefetch_ahead(const Place& place);
+  Fix located(const Place& place, FixStatus status) const;
+  void widen(Fix& fix, double log_odds, const Place& place, const std::vector<Place>& places) const;
 };
+
+namespace {
+
+Fix unlocated(double timestamp_s, FixStatus status) {
+  Fix fix;
+  fix.timestamp_s = timestamp_s;
+  fix.status = status;
+  return fix;
+}
+
+// Whether the segment leads where the vehicle looks, as far as that is known.
+bool leads_ahead(const RouteLine& line, double along_m, const CoarsePosition& vehicle) {
+  if (!vehicle.heading_deg) return true;
+  const double turn_deg = *vehicle.heading_deg - line.heading_deg_at(along_m);
+  return std::abs(std::remainder(turn_deg, 360)) <= kMaxStartTurnDeg;
+}
+
+// What the motion since a place was left over the end of its segment says for another place on it:
+// the map may look there as beyond its end. Up to kUsualSigmas nothing speaks against it.
+double log_density_after(const Place& left, const Place& place) {
+  constexpr double kUsualSigmas = 2;
+  constexpr double kAccelerationMps2 = 2;
+  const SegmentSession& before = left.session();
+  const SegmentSession& now = place.session();
+  if (before.layer.version != now.layer.version || before.layer.segment != now.layer.segment)
+    return 0;
+  const double since_s = place.timestamp_s - left.timestamp_s;
+  const double off_m =
+      place.follower->position().along_m - left.follower->expected_along_m(place.timestamp_s);
+  const double sigma_m =
+      0.5 + left.follower->position().sigma_m + kAccelerationMps2 * since_s * since_s / 2;
+  const double sigmas = std::max(0.0, std::abs(off_m) / sigma_m - kUsualSigmas);
+  return -sigmas * sigmas / 2;
+}
+
+// Whether two places are the same, as far as they know.
+bool is_same_place(const Place& a, const Place& b) {
+  return a.segment == b.segment &&
+         std::abs(a.follower->position().along_m - b.follower->position().along_m) < kSamePlaceM;
+}
+
+// Of places that are one, the pose that the frame speaks for most, with the odds of the likeliest.
+void merge_same(std::vector<Place>& places) {
+  std::ranges::stable_sort(places, std::greater<>(), &Place::log_bayes_factor);
+  std::vector<Place> merged;
+  for (Place& place : places) {
+    const auto same = std::ranges::find_if(
+        merged, [&](const Place& other) { return is_same_place(place, other); });
+    if (same == merged.end()) {
+      merged.push_back(std::move(place));
+    } else if (place.odds.log() > same->odds.log()) {
+      same->odds = place.odds;
+      same->receiver = place.receiver;
+    }
+  }
+  places = std::move(merged);
+}
+
+}  // namespace
 
 Localizer::Localizer(std::shared_ptr<MapSource> source, const QueryCamera& camera,
                      const LocalizerSettings& settings)
@@ -88,169 +197,268 @@ void Localizer::observe(const Odometry& odometry) {
   const bool ascends = !impl_->odometry || odometry.timestamp_s > impl_->odometry->timestamp_s;
   if (!is_sound || !ascends) return;
   impl_->odometry = odometry;
-  if (impl_->tracked) impl_->follower->observe(odometry);
+  if (auto* following = std::get_if<Following>(&impl_->state)) {
+    following->place.follower->observe(odometry);
+  } else {
+    Searching& searching = std::get<Searching>(impl_->state);
+    for (Place& place : searching.places) place.follower->observe(odometry);
+    if (searching.left) searching.left->follower->observe(odometry);
+  }
 }
 
 const std::optional<Error>& Localizer::noted_error() const { return impl_->noted; }
 
 Result<Fix> Localizer::localize(const QueryFrame& frame) {
-  return impl_->tracked ? impl_->track(frame) : impl_->start(frame);
+  SeenFrame seen(frame);
+  return std::holds_alternative<Following>(impl_->state) ? impl_->follow(seen)
+                                                         : impl_->search(seen);
 }
 
-Fix Localizer::Impl::unlocated(const QueryFrame& frame, FixStatus status) const {
-  Fix fix;
-  fix.timestamp_s = frame.timestamp_s;
-  fix.status = status;
-  return fix;
+bool Localizer::Impl::is_fresh(const std::optional<CoarsePosition>& position,
+                               double timestamp_s) const {
+  return position && timestamp_s - position->timestamp_s <= settings.max_coarse_age_s;
 }
 
-Fix Localizer::Impl::located(const QueryFrame& frame, FixStatus status, int matches) const {
-  const TrackedPosition position = follower->position();
-  Fix fix = unlocated(frame, status);
-  fix.version = session->layer.version;
-  fix.segment = session->layer.segment;
-  fix.along_m = std::clamp(position.along_m, 0.0, session->line.length_m());
+Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(const NearbySegment& where) {
+  for (const std::shared_ptr<OpenSegment>& segment : segments) {
+    const LayerSource& layer = segment->session.layer;
+    if (layer.version == where.version && layer.segment == where.segment) return segment;
+  }
+  Result<SegmentSession> session =
+      open_session({source, where.version, where.segment, settings.method.layer});
+  if (!session) return session.error();
+  auto segment = std::make_shared<OpenSegment>(OpenSegment{std::move(*session), nullptr});
+  Result<std::unique_ptr<Scout>> scout = make_scout(segment->session, camera, settings);
+  if (!scout) return scout.error();
+  segment->scout = std::move(*scout);
+  if (segments.size() == kMaxCandidates) segments.erase(segments.begin());
+  segments.push_back(segment);
+  return segment;
+}
+
+// Adds the places on segments near to a position that this frame may have been taken from. How far
+// the nearest segment is; infinitely, where none is near.
+Result<double> Localizer::Impl::scout(SeenFrame& frame, const CoarsePosition& around,
+                                      Searching& searching) {
+  const double age_s = frame.timestamp_s() - around.timestamp_s;
+  const double reach_m =
+      settings.start_sigmas * around.sigma_m + settings.start_reach_m + kCoarseSpeedMps * age_s;
+  const double radius_m = settings.start_radius_m + settings.start_sigmas * around.sigma_m;
+  Result<std::vector<NearbySegment>> near = source->segments_near(around.position, radius_m);
+  if (!near) return near.error();
+  if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
+  for (const NearbySegment& where : *near) {
+    const Result<std::shared_ptr<OpenSegment>> segment = opened(where);
+    if (!segment) return segment.error();
+    if (!leads_ahead((*segment)->session.line, where.along_m, around)) continue;
+    Result<std::vector<Sighting>> seen =
+        (*segment)->scout->look(frame, AlongRange{where.along_m, where.along_m}.widened(reach_m));
+    if (!seen) return seen.error();
+    for (Sighting& sighting : *seen) {
+      Place place{*segment,
+                  std::move(sighting.follower),
+                  PlaceOdds(settings.odds),
+                  ReceiverEvidence(settings.receiver),
+                  frame.timestamp_s(),
+                  true,
+                  sighting.log_bayes_factor,
+                  sighting.matches};
+      const double along_m = place.follower->position().along_m;
+      if (!place.is_on_segment(along_m)) continue;
+      if (searching.left) place.odds.add(log_density_after(*searching.left, place));
+      if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)
+        place.follower->observe(*odometry);
+      searching.places.push_back(std::move(place));
+    }
+  }
+  return near->empty() ? std::numeric_limits<double>::infinity() : near->front().distance_m;
+}
+
+// One frame further.
+Followed Localizer::Impl::advance(Place& place, SeenFrame& frame) const {
+  const double before_m = place.follower->position().along_m;
+  const Followed followed = place.follower->follow(frame);
+  place.timestamp_s = frame.timestamp_s();
+  place.measured = followed.measured;
+  place.matches = followed.matches;
+  place.log_bayes_factor = followed.log_bayes_factor;
+  place.weighed = false;
+  place.odds.move(place.follower->position().along_m - before_m);
+  return followed;
+}
+
+// Advances the places that are not at this frame yet.
+void Localizer::Impl::carry(Searching& searching, SeenFrame& frame) {
+  const auto is_over = [&](Place& place) {
+    if (place.timestamp_s == frame.timestamp_s()) return false;
+    const Followed followed = advance(place, frame);
+    if (followed.failure) noted = followed.failure;
+    const bool is_gone = followed.failure && followed.failure->code == ErrorCode::gone;
+    const bool has_left = !place.is_on_segment(place.follower->position().along_m);
+    if (has_left && searching.waiting == FixStatus::lost) searching.leave(std::move(place));
+    return is_gone || has_left;
+  };
+  std::erase_if(searching.places, is_over);
+}
+
+Result<Fix> Localizer::Impl::search(SeenFrame& frame) {
+  Searching& searching = std::get<Searching>(state);
+  carry(searching, frame);
+  const bool receiver_knows = is_fresh(coarse, frame.timestamp_s());
+  const auto& around = receiver_knows ? coarse : searching.lost_at;
+  if (is_fresh(around, frame.timestamp_s())) {
+    const Result<double> nearest_m = scout(frame, *around, searching);
+    if (!nearest_m) {
+      if (searching.places.empty()) return nearest_m.error();
+      noted = nearest_m.error();
+    } else if (receiver_knows &&
+               *nearest_m > settings.start_sigmas * coarse->sigma_m + kEndMarginM) {
+      searching.waiting = FixStatus::off_map;
+    } else if (receiver_knows && searching.waiting == FixStatus::off_map && !searching.left) {
+      searching.waiting = FixStatus::initializing;
+    }
+  }
+  weigh(searching.places, frame.timestamp_s());
+  return weighed(searching, frame.timestamp_s());
+}
+
+// Adds to a place's odds what the frame says, and the receiver.
+void Localizer::Impl::weigh(Place& place, double best, double timestamp_s) const {
+  place.weighed = true;
+  place.odds.add_frame(place.log_bayes_factor, best, place.follower->position().along_m);
+  if (is_fresh(coarse, timestamp_s))
+    place.odds.add(place.receiver.log_bayes_factor(*coarse, place.position(), timestamp_s));
+}
+
+// Weighs the places by this frame, against each other and elsewhere.
+void Localizer::Impl::weigh(std::vector<Place>& places, double timestamp_s) const {
+  merge_same(places);
+  double best = 0;
+  for (const Place& place : places) best = std::max(best, place.log_bayes_factor);
+  for (Place& place : places) {
+    if (!place.weighed) weigh(place, best, timestamp_s);
+  }
+  std::erase_if(places, [](const Place& place) { return place.odds.log() < kMinLogOdds; });
+  std::ranges::stable_sort(places, std::greater<>(),
+                           [](const Place& place) { return place.odds.log(); });
+  const auto most = static_cast<std::size_t>(settings.max_places);
+  if (places.size() > most) places.erase(places.begin() + settings.max_places, places.end());
+}
+
+// The answer while several places may be it.
+Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
+  if (searching.places.empty()) return unlocated(timestamp_s, searching.waiting);
+  Place& best = searching.places.front();
+  double against = 1;  // elsewhere
+  for (const Place& place : searching.places) {
+    if (&place != &best) against += std::exp(place.odds.log());
+  }
+  const double log_odds = best.odds.log() - std::log(against);
+  const bool was_lost = searching.waiting == FixStatus::lost;
+  if (log_odds < 0 || (was_lost && !best.measured))
+    return unlocated(timestamp_s, searching.waiting);
+  if (log_odds < settings.odds.claim || !best.measured) {
+    Fix fix = located(best, FixStatus::initializing);
+    widen(fix, best.odds.log(), best, searching.places);
+    return fix;
+  }
+  claim(std::move(best));
+  return located(std::get<Following>(state).place, FixStatus::tracking);
+}
+
+void Localizer::Impl::claim(Place place) {
+  prefetched_to_m = 0;
+  state = Following{std::move(place)};
+}
+
+Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
+  Following& following = std::get<Following>(state);
+  Place& place = following.place;
+  if (!place.is_on_segment(place.follower->expected_along_m(frame.timestamp_s()))) {
+    Searching left;
+    left.leave(std::move(place));
+    state = std::move(left);
+    const Result<Fix> elsewhere = search(frame);  // perhaps another segment begins here
+    if (elsewhere && elsewhere->along_m) return elsewhere;
+    return unlocated(frame.timestamp_s(), FixStatus::off_map);
+  }
+  const Followed followed = advance(place, frame);
+  if (followed.failure) noted = followed.failure;
+  if (followed.failure && followed.failure->code == ErrorCode::gone) {  // rebuilt meanwhile
+    state = Searching{FixStatus::lost};
+    return search(frame);
+  }
+  weigh(place, place.log_bayes_factor, frame.timestamp_s());
+  if (place.measured && place.odds.log() >= settings.odds.hold) {
+    following.frames_without_measurement = 0;
+    prefetch_ahead(place);
+    return located(place, FixStatus::tracking);
+  }
+  const bool is_lost = ++following.frames_without_measurement > settings.max_predicted_frames ||
+                       place.odds.log() < settings.odds.give_up;
+  if (!is_lost) {
+    Fix fix = located(place, FixStatus::predicted);
+    // What speaks against the place may be a truck before it, or that it is elsewhere.
+    const bool in_doubt = place.log_bayes_factor < kDoubt || place.odds.log() < settings.odds.hold;
+    if (in_doubt) widen(fix, std::min(place.odds.log(), settings.odds.doubt), place, {});
+    return fix;
+  }
+  Searching lost{FixStatus::lost};
+  const double sigma_m = std::max(place.follower->position().sigma_m, kElsewhereM);
+  lost.lost_at = CoarsePosition{frame.timestamp_s(), place.position(), sigma_m};
+  lost.places.push_back(std::move(place));
+  state = std::move(lost);
+  return search(frame);
+}
+
+Fix Localizer::Impl::located(const Place& place, FixStatus status) const {
+  const TrackedPosition position = place.follower->position();
+  Fix fix = unlocated(place.timestamp_s, status);
+  fix.version = place.session().layer.version;
+  fix.segment = place.session().layer.segment;
+  fix.along_m = std::clamp(position.along_m, 0.0, place.session().line.length_m());
   fix.sigma_m = position.sigma_m;
-  fix.position = session->line.point_at(*fix.along_m);
+  fix.position = place.session().line.point_at(*fix.along_m);
   if (position.across) {
     fix.lateral_m = position.across->lateral_m;
     fix.lateral_sigma_m = position.across->lateral_sigma_m;
     fix.heading_deg = position.across->heading_deg;
     fix.position = position.across->position;
   }
-  fix.matches = matches;
+  fix.matches = place.measured ? place.matches : 0;
   return fix;
 }
 
-bool Localizer::Impl::coarse_is_fresh(double timestamp_s) const {
-  return coarse && timestamp_s - coarse->timestamp_s <= settings.max_coarse_age_s;
-}
-
-// Whether the entered segment leads where the vehicle looks, as far as that is known.
-bool Localizer::Impl::may_be_followed(const NearbySegment& where) const {
-  if (!coarse->heading_deg) return true;
-  const double turn_deg = *coarse->heading_deg - session->line.heading_deg_at(where.along_m);
-  return std::abs(std::remainder(turn_deg, 360)) <= kMaxStartTurnDeg;
-}
-
-// Whether a fresh position of the receiver is too far from where the camera is followed.
-bool Localizer::Impl::is_contradicted(double timestamp_s) const {
-  if (!coarse_is_fresh(timestamp_s)) return false;
-  const GeoPoint here = session->line.point_at(follower->position().along_m);
-  const double age_s = timestamp_s - coarse->timestamp_s;
-  return geodesic_distance_m(here, coarse->position) >
-         settings.contradiction_sigmas * coarse->sigma_m + settings.contradiction_reach_m +
-             kCoarseSpeedMps * age_s;
-}
-
-Status Localizer::Impl::enter(const NearbySegment& where) {
-  if (session && session->layer.version == where.version && session->layer.segment == where.segment)
-    return ok_status();
-  Result<SegmentSession> opened =
-      open_session({source, where.version, where.segment, settings.method.layer});
-  if (!opened) return opened.error();
-  follower.reset();  // it knows the old session
-  session = std::make_unique<SegmentSession>(std::move(*opened));
-  Result<std::unique_ptr<Follower>> made = make_follower(*session, camera, settings);
-  if (!made) {
-    session.reset();
-    return made.error();
+// A place that is not certain: its sigma is that of all that it may be, about where it is said to
+// be. Elsewhere is where the receiver says, as far as it knows.
+void Localizer::Impl::widen(Fix& fix, double log_odds, const Place& place,
+                            const std::vector<Place>& places) const {
+  const GeoPoint here = place.position();
+  double weights = 1 + std::exp(log_odds);
+  double square_m2 = kUnknownM * kUnknownM;
+  if (is_fresh(coarse, place.timestamp_s)) {
+    const double sigma_m = std::max(kElsewhereM, coarse->sigma_m);
+    square_m2 = sigma_m * sigma_m + std::pow(geodesic_distance_m(here, coarse->position), 2);
   }
-  follower = std::move(*made);
-  prefetched_to_m = 0;
-  return ok_status();
+  for (const Place& other : places) {
+    if (&other == &place) continue;
+    const double weight = std::exp(other.odds.log());
+    weights += weight;
+    square_m2 += weight * std::pow(geodesic_distance_m(here, other.position()), 2);
+  }
+  const double spread_m = std::sqrt(square_m2 / weights);
+  fix.sigma_m = std::hypot(fix.sigma_m, spread_m);
+  if (fix.lateral_sigma_m) fix.lateral_sigma_m = std::hypot(*fix.lateral_sigma_m, spread_m);
 }
 
-Result<std::optional<Start>> Localizer::Impl::find_start(
-    const QueryFrame& frame, const std::vector<NearbySegment>& candidates) {
-  const double age_s = frame.timestamp_s - coarse->timestamp_s;
-  const double reach_m =
-      settings.start_sigmas * coarse->sigma_m + settings.start_reach_m + kCoarseSpeedMps * age_s;
-  std::optional<Start> best;
-  for (const NearbySegment& candidate : candidates) {
-    const Status entered = enter(candidate);
-    if (!entered.ok()) return entered.error();
-    if (!may_be_followed(candidate)) continue;
-    const AlongRange around = AlongRange{candidate.along_m, candidate.along_m}.widened(reach_m);
-    const Result<std::optional<Sighting>> seen = follower->find(frame, around);
-    if (!seen) return seen.error();
-    if (!*seen) continue;
-    if (!best || (*seen)->merit > best->sighting.merit) best = Start{**seen, candidate};
-  }
-  return best;
-}
-
-Result<Fix> Localizer::Impl::start(const QueryFrame& frame) {
-  const FixStatus waiting = was_tracked ? FixStatus::lost : FixStatus::initializing;
-  if (!coarse_is_fresh(frame.timestamp_s)) return unlocated(frame, waiting);
-  const double radius_m = settings.start_radius_m + settings.start_sigmas * coarse->sigma_m;
-  Result<std::vector<NearbySegment>> near = source->segments_near(coarse->position, radius_m);
-  if (!near) return near.error();
-  if (near->empty()) return unlocated(frame, FixStatus::off_map);
-  if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
-  const Result<std::optional<Start>> found = find_start(frame, *near);
-  if (!found) return found.error();
-  if (!*found) return unlocated(frame, waiting);
-
-  const Status entered = enter((*found)->where);
-  if (!entered.ok()) return entered.error();
-  const Result<int> matches = follower->start(frame, (*found)->sighting);
-  if (!matches) return matches.error();
-  if (odometry && frame.timestamp_s - odometry->timestamp_s <= kMaxOdometryAgeS)
-    follower->observe(*odometry);
-  tracked = true;
-  frames_without_measurement = 0;
-  was_tracked = true;
-  return located(frame, FixStatus::initializing, *matches);
-}
-
-Result<Fix> Localizer::Impl::track(const QueryFrame& frame) {
-  const double expected_m = follower->expected_along_m(frame.timestamp_s);
-  if (expected_m < -kEndMarginM || expected_m > session->line.length_m() + kEndMarginM) {
-    tracked = false;
-    was_tracked = false;
-    const Result<Fix> elsewhere = start(frame);  // perhaps another segment begins here
-    if (elsewhere && elsewhere->along_m) return elsewhere;
-    return unlocated(frame, FixStatus::off_map);
-  }
-  const Followed followed = follower->follow(frame);
-  if (followed.failure) noted = followed.failure;
-  if (followed.failure && followed.failure->code == ErrorCode::gone) {  // rebuilt meanwhile
-    leave(frame.timestamp_s);
-    return start(frame);
-  }
-  if (followed.measured && !is_contradicted(frame.timestamp_s)) {
-    frames_without_measurement = 0;
-    prefetch_ahead();
-    return located(frame, FixStatus::tracking, followed.matches);
-  }
-  if (++frames_without_measurement <= settings.max_predicted_frames) {
-    return located(frame, FixStatus::predicted, 0);
-  }
-  leave(frame.timestamp_s);
-  return start(frame);
-}
-
-// Gives up the tracked position, and keeps it to start again from unless a receiver knows more.
-void Localizer::Impl::leave(double timestamp_s) {
-  const TrackedPosition last = follower->position();
-  tracked = false;
-  if (!coarse_is_fresh(timestamp_s)) {
-    coarse = CoarsePosition{timestamp_s, session->line.point_at(last.along_m),
-                            std::max(last.sigma_m, 5.0)};
-  }
-  follower.reset();
-  session.reset();
-}
-
-void Localizer::Impl::prefetch_ahead() {
+void Localizer::Impl::prefetch_ahead(const Place& place) {
   if (!prefetcher) return;
-  const double at_m = follower->position().along_m;
+  const double at_m = place.follower->position().along_m;
   if (at_m + settings.prefetch_m / 2 < prefetched_to_m) return;
   const AlongRange ahead = {at_m, at_m + settings.prefetch_m};
-  if (prefetched_to_m < session->line.length_m()) {
-    prefetcher->request(session->layer.version, session->layer.segment, settings.method.layer,
-                        ahead);
+  const SegmentSession& session = place.session();
+  if (prefetched_to_m < session.line.length_m()) {
+    prefetcher->request(session.layer.version, session.layer.segment, settings.method.layer, ahead);
   }
   prefetched_to_m = ahead.to_m;
 }

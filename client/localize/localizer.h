@@ -9,7 +9,10 @@
 
 #include "client/fetch/map_source.h"
 #include "client/fetch/prefetcher.h"
+#include "client/localize/coarse_position.h"
 #include "client/localize/method.h"
+#include "client/localize/place_odds.h"
+#include "client/localize/receiver_evidence.h"
 #include "schema/feature/types.h"
 #include "schema/geo/odometry.h"
 #include "schema/geo/route_line.h"
@@ -17,11 +20,11 @@
 namespace milepost {
 
 enum class FixStatus {
-  initializing,  // near a segment, not yet sure where on it
+  initializing,  // not yet sure where: a fix there may be is as wide as that
   tracking,      // this frame was measured against the map
-  predicted,     // this frame gave no measurement; the motion model carries on
-  lost,          // too many frames without a measurement; looking again around the last fix or GPS
-  off_map,       // no segment of the catalog is near
+  predicted,  // this frame gave no measurement, or spoke against the place; the motion carries on
+  lost,       // the place is given up; looking again around the last fix or the receiver
+  off_map,    // no segment is near, or the vehicle drove over an end of its segment
 };
 
 const char* name_of(FixStatus status);
@@ -33,7 +36,9 @@ struct Fix {
   MapVersion version;             // empty unless a segment is known
   std::string segment;            // empty unless known
   std::optional<double> along_m;  // [0, length of the segment]
-  double sigma_m = 0;             // one standard deviation, with along_m
+  // One standard deviation, with along_m; until a place is claimed of all that it may be about
+  // here.
+  double sigma_m = 0;
   // Only of methods that know the camera's pose, not just its along:
   std::optional<double> lateral_m;        // from the segment's line, positive to the right
   std::optional<double> lateral_sigma_m;  // one standard deviation
@@ -41,16 +46,6 @@ struct Fix {
   // Where the camera is: beside the line where its lateral is known, else on it, at along_m.
   std::optional<GeoPoint> position;
   int matches = 0;  // features that agreed on the measurement
-};
-
-// A coarse position, of a receiver of satellite signals.
-struct CoarsePosition {
-  double timestamp_s = 0;
-  GeoPoint position;
-  double sigma_m = 0;  // one standard deviation, in each direction
-  // Where it is known which way the vehicle looks, clockwise from north, within 30 degrees or so:
-  // segments that lead elsewhere are no place to start.
-  std::optional<double> heading_deg = {};
 };
 
 // One frame of the query camera. Its features are asked for once the map, and with it the
@@ -65,6 +60,7 @@ struct QueryFrame {
 
 struct QueryCamera {
   int width_px = 0;
+  int height_px = 0;  // 0: as high as wide
   double focal_x_px = 0;
   double focal_y_px = 0;
   double principal_x_px = 0;
@@ -86,11 +82,9 @@ struct LocalizerSettings {
   double start_reach_m = 5;     // ... and so much more
   int min_start_support = 6;    // tracklets that must agree before a start is believed
   double max_coarse_age_s = 3;  // older positions start and contradict nothing
-  // A fix so many sigmas of a receiver's position away from it, and so much more, is contradicted:
-  // its frame counts as one without measurement. No method notices by itself that it follows what
-  // only looks like the road.
-  double contradiction_sigmas = 4;
-  double contradiction_reach_m = 10;
+  PlaceOddsSettings odds;
+  ReceiverEvidenceSettings receiver;
+  int max_places = 5;            // that are weighed against each other
   int max_predicted_frames = 8;  // frames without measurement before the vehicle counts as lost
   double prefetch_m = 300;       // fetched ahead in the background; 0 turns it off
   WindowSettings window;

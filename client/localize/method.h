@@ -8,6 +8,7 @@
 #include "client/localize/estimate.h"
 #include "client/localize/landmark_matching.h"
 #include "client/localize/matching.h"
+#include "client/localize/place_evidence.h"
 #include "client/localize/pose_consensus.h"
 #include "client/localize/scale_change.h"
 #include "client/localize/tracker.h"
@@ -47,10 +48,21 @@ struct LandmarkMethod {
   ConsensusSettings consensus;
   PoseMotionSettings motion;
   WheelSettings wheels;
-  RobustSettings vote;  // over along, where a start is looked for
+  RobustSettings vote;              // over along, where a start is looked for
+  int max_start_places = 3;         // of the densest votes, tried in a frame ...
+  double start_places_apart_m = 4;  // ... and so far apart
+  int min_start_support = 6;        // votes or matches that agree
+  PlaceSupportSettings support;
+  // A frame is taken in that speaks no more against the place than so ...
+  double min_log_bayes_factor = 0;
+  double min_searched_log_bayes_factor = 2;  // ... and, not found where it was expected, for it.
+  // A frame of so many features that is not taken in speaks so against the place at least.
+  int min_seeing_features = 30;
+  double log_bayes_factor_of_nothing = -3;
 
   // What is believed at the start, about the line where the votes are densest.
   double start_along_sigma_m = 2;
+  double start_region_m = 12;  // in which its landmarks were mapped
   double start_lateral_sigma_m = 2.5;
   double start_up_sigma_m = 0.5;
   double start_heading_sigma_deg = 6;
@@ -72,6 +84,9 @@ struct LandmarkMethod {
   double min_agreeing_part = 0.35;  // of the matches found in their places
   double search_widening = 3;       // of the belief's sigmas, where they were not found there
   double min_sigma_m = 0.02;        // of along and lateral: what maps themselves may be off
+  // Frames that miss much of what they should show are less exact than what they find agrees:
+  // variance, as told, grows by so much times the square of the part that is missed.
+  double missed_variance = 6;
 };
 
 struct Method {

@@ -1,30 +1,47 @@
 #include "client/localize/pose_consensus.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
+#include <Eigen/Dense>
+
 namespace milepost {
+namespace {
+
+// Pairs to draw until one of two that agree is among them, as certainly as that, where a part of
+// all agrees.
+double enough_samples(double agreeing_part, double confidence) {
+  return std::log(1 - confidence) / std::log1p(-std::min(0.999, agreeing_part * agreeing_part));
+}
+
+}  // namespace
 
 std::optional<PoseEstimate> estimate_by_consensus(const PoseSolver& solver,
                                                   const PoseBelief& before,
                                                   const std::vector<LandmarkMatch>& matches,
                                                   const ConsensusSettings& settings) {
   if (matches.size() < 2) return std::nullopt;
+  const StateMatrix before_information = before.covariance.inverse();
   std::mt19937 draws(settings.seed);
   StateVector best = before.mean;
-  std::size_t most = 0;
-  for (int i = 0; i < settings.samples; ++i) {
+  std::ptrdiff_t most = 0;
+  double samples = settings.samples;
+  for (int i = 0; i < samples; ++i) {
     const std::size_t a = draws() % matches.size();
     const std::size_t b = draws() % matches.size();
     if (a == b) continue;
-    const StateVector proposed = solver.hypothesis(before, {matches[a], matches[b]});
-    std::size_t agreeing = 0;
-    for (const LandmarkMatch& match : matches) {
-      if (solver.pixel_sigmas(proposed, match) < settings.agreement_sigmas) ++agreeing;
-    }
+    const StateVector proposed =
+        solver.hypothesis(before, before_information, {matches[a], matches[b]});
+    const auto agreeing =
+        std::ranges::count_if(solver.pixel_sigmas(proposed, matches),
+                              [&](double sigmas) { return sigmas < settings.agreement_sigmas; });
     if (agreeing <= most) continue;
     most = agreeing;
     best = proposed;
+    samples = std::min(
+        samples, enough_samples(static_cast<double>(most) / static_cast<double>(matches.size()),
+                                settings.confidence));
   }
   return solver.estimate(before, best, matches);
 }

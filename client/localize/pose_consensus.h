@@ -12,7 +12,8 @@
 namespace milepost {
 
 struct ConsensusSettings {
-  int samples = 200;            // pairs of matches that propose a pose
+  int samples = 200;            // pairs of matches that propose a pose, at most ...
+  double confidence = 0.9999;   // ... and until this certain that one of them is right
   double agreement_sigmas = 3;  // of a match's pixel, to agree with it
   std::uint32_t seed = 1;       // of the draws
 };

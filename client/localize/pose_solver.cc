@@ -47,51 +47,58 @@ Eigen::Matrix3d rolled_by_roll(double roll_rad) {
 
 }  // namespace
 
+// A state as all matches are seen from it.
+struct PoseSolver::View {
+  View(const StateVector& state, const Pinhole& given)
+      : pose(PoseBelief{state, {}}.pose()),
+        camera(PoseBelief{state, {}}.camera(given)),
+        level(level_camera_from_enu(pose.heading_rad)),
+        pitched(pitched_from_level(pose.pitch_rad)),
+        rolled(rolled_from_pitched(pose.roll_rad)),
+        rotation(rolled * pitched * level),
+        by_heading(rolled * pitched * level_by_heading(pose.heading_rad)),
+        by_pitch(rolled * pitched_by_pitch(pose.pitch_rad) * level),
+        by_roll(rolled_by_roll(pose.roll_rad) * pitched * level) {}
+
+  CameraPose pose;
+  Pinhole camera;
+  Eigen::Matrix3d level, pitched, rolled;
+  Eigen::Matrix3d rotation;                       // camera_from_enu, and its derivatives ...
+  Eigen::Matrix3d by_heading, by_pitch, by_roll;  // ... by the angles
+};
+
 // A match seen from a pose.
-struct PoseSolver::Linearized {
+struct PoseSolver::Seen {
+  Eigen::Vector3d from_camera_m;  // the landmark, in the axes of the tangent frame ...
+  Eigen::Vector3d seen_m;         // ... and of the camera
+  Eigen::Matrix<double, 2, 3> pixel_by_seen;
   Eigen::Vector2d residual_px;
-  Eigen::Matrix<double, 2, kPoseStates> pixel_by_pose;
   Eigen::Matrix2d pixel_information;
+  double pixel_sigmas = 0;
+};
+
+// How its residuals change with the pose.
+struct PoseSolver::Linearized {
+  Eigen::Matrix<double, 2, kPoseStates> pixel_by_pose;
   double residual_log_scale = 0;
   PoseRow log_scale_by_pose;
   double scale_information = 0;
-  double pixel_sigmas = 0;
   double scale_sigmas = 0;
 };
 
-bool PoseSolver::linearize(const StateVector& state, const LandmarkMatch& match,
-                           Linearized& at) const {
-  const PoseBelief here{state, {}};
-  const CameraPose pose = here.pose();
-  const Pinhole camera = here.camera(camera_);
+// Whether the landmark lies before the camera.
+bool PoseSolver::look(const View& view, const LandmarkMatch& match, Seen& at) const {
   const PlacedLandmark& landmark = landmarks_[match.landmark];
   const Feature& feature = features_[match.feature];
-  const Eigen::Matrix3d level = level_camera_from_enu(pose.heading_rad);
-  const Eigen::Matrix3d pitched = pitched_from_level(pose.pitch_rad);
-  const Eigen::Matrix3d rolled = rolled_from_pitched(pose.roll_rad);
-  const Eigen::Matrix3d rotation = rolled * pitched * level;
-  const Eigen::Vector3d from_camera = landmark.enu_m - pose.enu_m;
-  const Eigen::Vector3d seen = rotation * from_camera;
-  if (!(seen.z() > kNearestM)) return false;
-
-  Eigen::Matrix<double, 3, kPoseStates> seen_by_pose =
-      Eigen::Matrix<double, 3, kPoseStates>::Zero();
-  seen_by_pose.leftCols<3>() = -rotation;
-  seen_by_pose.col(kHeading) = rolled * pitched * level_by_heading(pose.heading_rad) * from_camera;
-  seen_by_pose.col(kPitch) = rolled * pitched_by_pitch(pose.pitch_rad) * level * from_camera;
-  seen_by_pose.col(kRoll) = rolled_by_roll(pose.roll_rad) * pitched * level * from_camera;
-  Eigen::Matrix<double, 2, 3> pixel_by_seen;
-  const double z = seen.z();
-  pixel_by_seen << camera.focal_x_px / z, 0, -camera.focal_x_px * seen.x() / (z * z), 0,
-      camera.focal_y_px / z, -camera.focal_y_px * seen.y() / (z * z);
-
-  at.residual_px = Eigen::Vector2d(feature.x_px, feature.y_px) - camera.pixel_of(seen);
-  at.pixel_by_pose = pixel_by_seen * seen_by_pose;
-  at.pixel_by_pose.col(kLogFocal) << camera.focal_x_px * seen.x() / z,
-      camera.focal_y_px * seen.y() / z;
-  at.pixel_by_pose(0, kPrincipalX) = camera_.focal_x_px;
-  at.pixel_by_pose(1, kPrincipalY) = camera_.focal_y_px;
-  const Eigen::Matrix<double, 2, 3> pixel_by_landmark = pixel_by_seen * rotation;
+  at.from_camera_m = landmark.enu_m - view.pose.enu_m;
+  at.seen_m = view.rotation * at.from_camera_m;
+  const double z = at.seen_m.z();
+  if (!(z > kNearestM)) return false;
+  const Pinhole& camera = view.camera;
+  at.pixel_by_seen << camera.focal_x_px / z, 0, -camera.focal_x_px * at.seen_m.x() / (z * z), 0,
+      camera.focal_y_px / z, -camera.focal_y_px * at.seen_m.y() / (z * z);
+  at.residual_px = Eigen::Vector2d(feature.x_px, feature.y_px) - camera.pixel_of(at.seen_m);
+  const Eigen::Matrix<double, 2, 3> pixel_by_landmark = at.pixel_by_seen * view.rotation;
   const Eigen::Vector2d along_ray = pixel_by_landmark * landmark.mapping_ray;
   const double pixel_sigma =
       std::hypot(settings_.pixel_sigma_px, settings_.pixel_per_scale * feature.scale_px);
@@ -102,9 +109,27 @@ bool PoseSolver::linearize(const StateVector& state, const LandmarkMatch& match,
           settings_.landmark_sigma_m;
   at.pixel_information = pixel_covariance.inverse();
   at.pixel_sigmas = std::sqrt(at.residual_px.dot(at.pixel_information * at.residual_px));
+  return true;
+}
 
-  at.residual_log_scale =
-      std::log(feature.scale_px) - std::log(landmark.size_m * camera.focal_px() / z);
+void PoseSolver::linearize(const View& view, const LandmarkMatch& match, const Seen& seen,
+                           Linearized& at) const {
+  const PlacedLandmark& landmark = landmarks_[match.landmark];
+  const double z = seen.seen_m.z();
+  Eigen::Matrix<double, 3, kPoseStates> seen_by_pose =
+      Eigen::Matrix<double, 3, kPoseStates>::Zero();
+  seen_by_pose.leftCols<3>() = -view.rotation;
+  seen_by_pose.col(kHeading) = view.by_heading * seen.from_camera_m;
+  seen_by_pose.col(kPitch) = view.by_pitch * seen.from_camera_m;
+  seen_by_pose.col(kRoll) = view.by_roll * seen.from_camera_m;
+  at.pixel_by_pose = seen.pixel_by_seen * seen_by_pose;
+  at.pixel_by_pose.col(kLogFocal) << view.camera.focal_x_px * seen.seen_m.x() / z,
+      view.camera.focal_y_px * seen.seen_m.y() / z;
+  at.pixel_by_pose(0, kPrincipalX) = camera_.focal_x_px;
+  at.pixel_by_pose(1, kPrincipalY) = camera_.focal_y_px;
+
+  at.residual_log_scale = std::log(features_[match.feature].scale_px) -
+                          std::log(landmark.size_m * view.camera.focal_px() / z);
   at.log_scale_by_pose = -seen_by_pose.row(2) / z;
   at.log_scale_by_pose[kLogFocal] = 1;
   const double depth_sigma = landmark.depth_sigma_m / z;
@@ -113,7 +138,6 @@ bool PoseSolver::linearize(const StateVector& state, const LandmarkMatch& match,
                                 depth_sigma * depth_sigma;
   at.scale_information = 1 / scale_variance;
   at.scale_sigmas = std::abs(at.residual_log_scale) / std::sqrt(scale_variance);
-  return true;
 }
 
 // One step of Gauss and Newton. Whether it could be made.
@@ -123,22 +147,36 @@ bool PoseSolver::step(const PoseBelief& before, const StateMatrix& before_inform
                       StateVector& state, StateMatrix& information) const {
   information = before_information;
   StateVector gradient = before_information * (before.mean - state);
+  const View view(state, camera_);
+  // What the scales of a frame share, as part of the state and then marginalized.
+  double shared_information = 1 / (settings_.shared_scale_sigma * settings_.shared_scale_sigma);
+  Eigen::Matrix<double, kPoseStates, 1> shared_by_pose =
+      Eigen::Matrix<double, kPoseStates, 1>::Zero();
+  double shared_gradient = 0;
+  Seen seen;
   Linearized at;
   for (const LandmarkMatch& match : matches) {
-    if (!linearize(state, match, at)) continue;
-    const double of_pixel = weight(at.pixel_sigmas);
+    if (!look(view, match, seen)) continue;
+    const double of_pixel = weight(seen.pixel_sigmas);
     if (of_pixel <= 0) continue;
+    linearize(view, match, seen, at);
     const Eigen::Matrix<double, kPoseStates, 2> weighed =
-        of_pixel * at.pixel_by_pose.transpose() * at.pixel_information;
+        of_pixel * at.pixel_by_pose.transpose() * seen.pixel_information;
     information.topLeftCorner<kPoseStates, kPoseStates>() += weighed * at.pixel_by_pose;
-    gradient.head<kPoseStates>() += weighed * at.residual_px;
+    gradient.head<kPoseStates>() += weighed * seen.residual_px;
     const double of_scale =
         of_pixel * cauchy_weight(at.scale_sigmas, settings_.cauchy) * at.scale_information;
     information.topLeftCorner<kPoseStates, kPoseStates>() +=
         of_scale * at.log_scale_by_pose.transpose() * at.log_scale_by_pose;
     gradient.head<kPoseStates>() +=
         of_scale * at.log_scale_by_pose.transpose() * at.residual_log_scale;
+    shared_information += of_scale;
+    shared_by_pose += of_scale * at.log_scale_by_pose.transpose();
+    shared_gradient += of_scale * at.residual_log_scale;
   }
+  information.topLeftCorner<kPoseStates, kPoseStates>() -=
+      shared_by_pose * shared_by_pose.transpose() / shared_information;
+  gradient.head<kPoseStates>() -= shared_by_pose * shared_gradient / shared_information;
   const StateVector change = information.ldlt().solve(gradient);
   if (!change.allFinite()) return false;
   state += change;
@@ -161,18 +199,16 @@ PoseEstimate PoseSolver::estimate(const PoseBelief& before, const StateVector& i
   PoseEstimate estimate;
   estimate.belief.mean = state;
   estimate.belief.covariance = information.inverse();
-  for (const LandmarkMatch& match : matches) {
-    if (pixel_sigmas(state, match) < settings_.cutoff) {
-      estimate.agreeing.push_back(match);
-    }
+  const std::vector<double> sigmas = pixel_sigmas(state, matches);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (sigmas[i] < settings_.cutoff) estimate.agreeing.push_back(matches[i]);
   }
   return estimate;
 }
 
-StateVector PoseSolver::hypothesis(const PoseBelief& before,
+StateVector PoseSolver::hypothesis(const PoseBelief& before, const StateMatrix& before_information,
                                    const std::vector<LandmarkMatch>& matches) const {
   constexpr int kIterations = 4;
-  const StateMatrix before_information = before.covariance.inverse();
   StateVector state = before.mean;
   StateMatrix information;
   for (int i = 0; i < kIterations; ++i) {
@@ -183,9 +219,17 @@ StateVector PoseSolver::hypothesis(const PoseBelief& before,
   return state;
 }
 
-double PoseSolver::pixel_sigmas(const StateVector& state, const LandmarkMatch& match) const {
-  Linearized at;
-  return linearize(state, match, at) ? at.pixel_sigmas : std::numeric_limits<double>::infinity();
+std::vector<double> PoseSolver::pixel_sigmas(const StateVector& state,
+                                             const std::vector<LandmarkMatch>& matches) const {
+  const View view(state, camera_);
+  std::vector<double> sigmas;
+  sigmas.reserve(matches.size());
+  Seen seen;
+  for (const LandmarkMatch& match : matches) {
+    sigmas.push_back(look(view, match, seen) ? seen.pixel_sigmas
+                                             : std::numeric_limits<double>::infinity());
+  }
+  return sigmas;
 }
 
 }  // namespace milepost

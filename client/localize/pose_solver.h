@@ -22,13 +22,14 @@ struct LandmarkMatch {
 };
 
 struct PoseSolverSettings {
-  double pixel_sigma_px = 1.0;     // of a feature, beside ...
-  double pixel_per_scale = 0.04;   // ... this part of its scale
-  double landmark_sigma_m = 0.02;  // of a landmark's position, in each direction
-  double scale_sigma = 0.12;       // of the logarithm of a feature's scale
-  double cauchy = 2;               // a match so many sigmas off weighs half at first ...
-  double cutoff = 4;               // ... and beyond so many, at last, nothing (Tukey's biweight)
-  int iterations = 6;              // at first, and at last
+  double pixel_sigma_px = 1.0;       // of a feature, beside ...
+  double pixel_per_scale = 0.04;     // ... this part of its scale
+  double landmark_sigma_m = 0.02;    // of a landmark's position, in each direction
+  double scale_sigma = 0.12;         // of the logarithm of a feature's scale ...
+  double shared_scale_sigma = 0.05;  // ... beside what all of a frame share: blur makes all larger
+  double cauchy = 2;                 // a match so many sigmas off weighs half at first ...
+  double cutoff = 4;                 // ... and beyond so many, at last, nothing (Tukey's biweight)
+  int iterations = 6;                // at first, and at last
 };
 
 struct PoseEstimate {
@@ -46,15 +47,22 @@ class PoseSolver {
   // The estimate from `matches`, found from `initial` on.
   PoseEstimate estimate(const PoseBelief& before, const StateVector& initial,
                         const std::vector<LandmarkMatch>& matches) const;
-  // The state that fits `before` and few matches, all of which are trusted.
-  StateVector hypothesis(const PoseBelief& before, const std::vector<LandmarkMatch>& matches) const;
-  // How many sigmas a match's pixel is off, seen in a state; infinite behind the camera.
-  double pixel_sigmas(const StateVector& state, const LandmarkMatch& match) const;
+  // The state that fits `before` and few matches, all of which are trusted. `before_information` is
+  // the inverse of its covariance.
+  StateVector hypothesis(const PoseBelief& before, const StateMatrix& before_information,
+                         const std::vector<LandmarkMatch>& matches) const;
+  // How many sigmas each match's pixel is off, seen in a state; infinite behind the camera.
+  std::vector<double> pixel_sigmas(const StateVector& state,
+                                   const std::vector<LandmarkMatch>& matches) const;
 
  private:
+  struct View;
+  struct Seen;
   struct Linearized;
 
-  bool linearize(const StateVector& state, const LandmarkMatch& match, Linearized& at) const;
+  bool look(const View& view, const LandmarkMatch& match, Seen& at) const;
+  void linearize(const View& view, const LandmarkMatch& match, const Seen& seen,
+                 Linearized& at) const;
   template <class Weight>
   bool step(const PoseBelief& before, const StateMatrix& before_information,
             const std::vector<LandmarkMatch>& matches, const Weight& weight, StateVector& state,

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 
 #include "client/localize/follower.h"
 #include "client/localize/matching.h"
+#include "client/localize/paper_evidence.h"
 #include "client/localize/tracklet_window.h"
 
 namespace milepost {
@@ -22,33 +24,28 @@ class TrackletFollower : public Follower {
         window_(session.layer, session.items, settings.window),
         tracker_(make_tracker(method)) {}
 
-  // A start is found in two looks: all tracklets near the coarse position here, then those near the
-  // answer in start().
-  Result<std::optional<Sighting>> find(const QueryFrame& frame, const AlongRange& around) override {
+  // A start is found in two looks: all tracklets in `around`, then those near the answer. The
+  // tracklets that agree, or nothing where the frame is no evidence.
+  Result<std::optional<int>> begin(SeenFrame& frame, const AlongRange& around) {
     const auto matches = matches_in(frame, around);
     if (!matches) return matches.error();
     const auto seen = combine_robustly(estimates_of(*matches), method_.robust);
-    if (!seen || seen->support < min_start_support_) return std::optional<Sighting>();
-    return std::optional(Sighting{*seen, static_cast<double>(seen->support), around});
-  }
-
-  Result<int> start(const QueryFrame& frame, const Sighting& sighting) override {
-    const double along_m = sighting.measurement.along_m;
-    const auto matches = matches_in(frame, AlongRange{along_m, along_m}.widened(kStartRefineM));
-    if (!matches) return matches.error();
-    const Measurement first =
-        combine(estimates_of(*matches), method_).value_or(sighting.measurement);
-    tracker_->start(frame.timestamp_s, first);
-    return first.support;
+    if (!seen || seen->support < min_start_support_) return std::optional<int>();
+    const auto near = AlongRange{seen->along_m, seen->along_m}.widened(kStartRefineM);
+    const auto again = matches_in(frame, near);
+    if (!again) return again.error();
+    const Measurement first = combine(estimates_of(*again), method_).value_or(*seen);
+    tracker_->start(frame.timestamp_s(), first);
+    return std::optional(first.support);
   }
 
   double expected_along_m(double timestamp_s) const override {
     return tracker_->predict(timestamp_s).along_m;
   }
 
-  Followed follow(const QueryFrame& frame) override {
+  Followed follow(SeenFrame& frame) override {
     Followed followed;
-    const auto matches = matches_in(frame, tracker_->search_region(frame.timestamp_s));
+    const auto matches = matches_in(frame, tracker_->search_region(frame.timestamp_s()));
     std::optional<Measurement> measured;
     if (matches) {
       tell(*matches);
@@ -56,15 +53,16 @@ class TrackletFollower : public Follower {
     } else {
       followed.failure = matches.error();
     }
-    followed.measured = tracker_->advance(frame.timestamp_s, measured);
+    followed.measured = tracker_->advance(frame.timestamp_s(), measured);
     followed.matches = followed.measured ? measured->support : 0;
+    followed.log_bayes_factor = evidence_.of_frame(followed.measured);
     return followed;
   }
 
   TrackedPosition position() const override { return tracker_->position(); }
 
  private:
-  Result<std::vector<TrackletMatch>> matches_in(const QueryFrame& frame, const AlongRange& region) {
+  Result<std::vector<TrackletMatch>> matches_in(SeenFrame& frame, const AlongRange& region) {
     const Status covered = window_.cover(region);
     if (!covered.ok()) return covered.error();
     return match_tracklets(frame.features(feature_), scale_ratio_, image_width_px_, window_, region,
@@ -94,15 +92,39 @@ class TrackletFollower : public Follower {
   TrackletMethod method_;
   TrackletWindow window_;
   std::unique_ptr<Tracker> tracker_;
+  PaperEvidence evidence_;
+};
+
+class TrackletScout : public Scout {
+ public:
+  TrackletScout(const SegmentSession& session, const QueryCamera& camera,
+                const LocalizerSettings& settings, const TrackletMethod& method)
+      : session_(session), camera_(camera), settings_(settings), method_(method) {}
+
+  Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
+    auto follower = std::make_unique<TrackletFollower>(session_, camera_, settings_, method_);
+    const auto begun = follower->begin(frame, around);
+    if (!begun) return begun.error();
+    std::vector<Sighting> sightings;
+    if (*begun)
+      sightings.push_back({std::move(follower), **begun,
+                           std::min<double>(**begun, PaperEvidence::kLogBayesFactor)});
+    return sightings;
+  }
+
+ private:
+  const SegmentSession& session_;
+  QueryCamera camera_;
+  LocalizerSettings settings_;
+  TrackletMethod method_;
 };
 
 }  // namespace
 
-std::unique_ptr<Follower> make_tracklet_follower(const SegmentSession& session,
-                                                 const QueryCamera& camera,
-                                                 const LocalizerSettings& settings,
-                                                 const TrackletMethod& method) {
-  return std::make_unique<TrackletFollower>(session, camera, settings, method);
+std::unique_ptr<Scout> make_tracklet_scout(const SegmentSession& session, const QueryCamera& camera,
+                                           const LocalizerSettings& settings,
+                                           const TrackletMethod& method) {
+  return std::make_unique<TrackletScout>(session, camera, settings, method);
 }
 
 }  // namespace milepost

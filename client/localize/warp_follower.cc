@@ -3,11 +3,14 @@
 
 #include "client/localize/follower.h"
 #include "client/localize/frame_window.h"
+#include "client/localize/paper_evidence.h"
 #include "client/localize/scale_change.h"
 #include "client/localize/warping.h"
 
 namespace milepost {
 namespace {
+
+constexpr double kLogBayesFactorOfCost = 20;  // of the first look's
 
 // A query frame against the map's frames of a band.
 struct Comparison {
@@ -47,37 +50,38 @@ class WarpFollower : public Follower {
         method_(method),
         window_(session.layer, settings.window.reach, settings.window.index) {}
 
-  Result<std::optional<Sighting>> find(const QueryFrame& frame, const AlongRange& around) override {
+  // The frames that match at the best place of `around`, and its cost; nothing where there is no
+  // frame to compare with.
+  struct Begun {
+    int matches = 0;
+    double cost = 0;
+  };
+  Result<std::optional<Begun>> begin(SeenFrame& frame, const AlongRange& around) {
     const Result<Comparison> seen = compare(frame, around);
     if (!seen) return seen.error();
-    if (!seen->compared) return std::optional<Sighting>();
-    const WarpCell best = best_end(first_row(seen->costs));
-    return std::optional(Sighting{{best.along_m, 0, 0}, -best.cost, around});
-  }
-
-  Result<int> start(const QueryFrame& frame, const Sighting& sighting) override {
-    const Result<Comparison> seen = compare(frame, sighting.around);
-    if (!seen) return seen.error();
+    if (!seen->compared) return std::optional<Begun>();
     row_ = first_row(seen->costs);
-    path_costs_ = {};
-    settle(frame.timestamp_s);
-    return matches_at_best(*seen);
+    const double cost = best_end(row_).cost;
+    settle(frame.timestamp_s());
+    return std::optional(Begun{matches_at_best(*seen), cost});
   }
 
   double expected_along_m(double /*timestamp_s*/) const override { return best_end(row_).along_m; }
 
-  Followed follow(const QueryFrame& frame) override {
+  Followed follow(SeenFrame& frame) override {
     const double max_step_m =
-        std::max(method_.max_speed_mps * (frame.timestamp_s - latest_s_), method_.min_step_m);
+        std::max(method_.max_speed_mps * (frame.timestamp_s() - latest_s_), method_.min_step_m);
     const double latest_m = best_end(row_).along_m;
     const AlongRange band = {latest_m - method_.band_m, latest_m + max_step_m + method_.band_m};
     const Result<Comparison> seen = compare(frame, band);
     if (!seen) return {.failure = seen.error()};
     WarpRow next = next_row(row_, seen->costs, max_step_m);
-    if (!seen->compared || next.empty()) return {};
+    if (!seen->compared || next.empty()) return {.log_bayes_factor = evidence_.of_frame(false)};
     row_ = std::move(next);
-    settle(frame.timestamp_s);
-    return {.measured = true, .matches = matches_at_best(*seen)};
+    settle(frame.timestamp_s());
+    return {.measured = true,
+            .matches = matches_at_best(*seen),
+            .log_bayes_factor = evidence_.of_frame(true)};
   }
 
   // As far off as frames lie apart, and as the ends of paths that are as good as the best within
@@ -98,7 +102,7 @@ class WarpFollower : public Follower {
   }
 
  private:
-  Result<Comparison> compare(const QueryFrame& frame, const AlongRange& band) {
+  Result<Comparison> compare(SeenFrame& frame, const AlongRange& band) {
     const Status covered = window_.cover(band);
     if (!covered.ok()) return covered.error();
     Comparison comparison;
@@ -114,11 +118,11 @@ class WarpFollower : public Follower {
     return comparison;
   }
 
-  std::optional<double> cost_of(const QueryFrame& frame, const IndexedFrame& map_frame,
+  std::optional<double> cost_of(SeenFrame& frame, const IndexedFrame& map_frame,
                                 int& matches) const {
     if (method_.comparison == FrameComparison::image) {
-      if (!frame.image || !map_frame.frame().image) return std::nullopt;
-      return image_distance(frame.image(), *map_frame.frame().image);
+      if (!frame.frame().image || !map_frame.frame().image) return std::nullopt;
+      return image_distance(frame.frame().image(), *map_frame.frame().image);
     }
     const double query_focal_px = std::sqrt(camera_.focal_x_px * camera_.focal_y_px);
     const auto change =
@@ -154,15 +158,40 @@ class WarpFollower : public Follower {
   WarpRow row_;  // of the latest frame; its least cost is 0
   PathCosts path_costs_;
   double latest_s_ = 0;
+  PaperEvidence evidence_;
+};
+
+class WarpScout : public Scout {
+ public:
+  WarpScout(const SegmentSession& session, const QueryCamera& camera,
+            const LocalizerSettings& settings, const WarpMethod& method)
+      : session_(session), camera_(camera), settings_(settings), method_(method) {}
+
+  Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
+    auto follower = std::make_unique<WarpFollower>(session_, camera_, settings_, method_);
+    const auto begun = follower->begin(frame, around);
+    if (!begun) return begun.error();
+    std::vector<Sighting> sightings;
+    if (*begun)
+      sightings.push_back(
+          {std::move(follower), (*begun)->matches,
+           PaperEvidence::kLogBayesFactor - kLogBayesFactorOfCost * (*begun)->cost});
+    return sightings;
+  }
+
+ private:
+  const SegmentSession& session_;
+  QueryCamera camera_;
+  LocalizerSettings settings_;
+  WarpMethod method_;
 };
 
 }  // namespace
 
-std::unique_ptr<Follower> make_warp_follower(const SegmentSession& session,
-                                             const QueryCamera& camera,
-                                             const LocalizerSettings& settings,
-                                             const WarpMethod& method) {
-  return std::make_unique<WarpFollower>(session, camera, settings, method);
+std::unique_ptr<Scout> make_warp_scout(const SegmentSession& session, const QueryCamera& camera,
+                                       const LocalizerSettings& settings,
+                                       const WarpMethod& method) {
+  return std::make_unique<WarpScout>(session, camera, settings, method);
 }
 
 }  // namespace milepost

@@ -120,7 +120,11 @@ std::vector<LandmarkTile> LandmarkRoad::tiles() const {
 }
 
 QueryCamera LandmarkRoad::query_camera() const {
-  return {kWidthPx, kCamera.focal_x_px, kCamera.focal_y_px, kCamera.principal_x_px,
+  return {kWidthPx,
+          kHeightPx,
+          kCamera.focal_x_px,
+          kCamera.focal_y_px,
+          kCamera.principal_x_px,
           kCamera.principal_y_px};
 }
 

@@ -69,7 +69,7 @@ TEST(PoseSolver, DerivativesAreThoseOfTheSquaredPixelErrors) {
   const auto half_squares = [&](const StateVector& state) {
     double sum = 0;
     for (const LandmarkMatch& match : scene.matches) {
-      sum += std::pow(solver.pixel_sigmas(state, match), 2) / 2;
+      sum += std::pow(solver.pixel_sigmas(state, {match}).front(), 2) / 2;
     }
     return sum;
   };
@@ -164,7 +164,7 @@ TEST(PoseSolver, WrongMatchesDoNotMoveIt) {
   EXPECT_GE(estimate.agreeing.size(), 36U);
   EXPECT_LE(estimate.agreeing.size(), 38U);
   for (const LandmarkMatch& match : estimate.agreeing) {
-    EXPECT_LT(solver_of(scene).pixel_sigmas(estimate.belief.mean, match),
+    EXPECT_LT(solver_of(scene).pixel_sigmas(estimate.belief.mean, {match}).front(),
               PoseSolverSettings().cutoff);
   }
 }
@@ -187,6 +187,7 @@ TEST(PoseSolver, OfFewLandmarksScaleDecidesAlong) {
   const auto along = [&](double scale_sigma) {
     PoseSolverSettings settings;
     settings.scale_sigma = scale_sigma;
+    settings.shared_scale_sigma = 1e-4;
     const PoseBelief after =
         solver_of(scene, settings).estimate(before, before.mean, scene.matches).belief;
     const Eigen::Matrix3d covariance = after.covariance.topLeftCorner<3, 3>();
@@ -199,6 +200,30 @@ TEST(PoseSolver, OfFewLandmarksScaleDecidesAlong) {
   const auto [blind_error_m, blind_sigma_m] = along(kNothing);
   EXPECT_LT(blind_error_m, -0.5);
   EXPECT_GT(blind_sigma_m, 1.5);
+}
+
+// A frame out of focus has all its features larger by a part: no number of them averages that out.
+TEST(PoseSolver, WhatAllScalesShareIsNotAveragedOut) {
+  LandmarkScene scene(0);
+  const Eigen::Matrix3d enu_from_camera = camera_from_enu(scene.pose).transpose();
+  constexpr double kDepthM = 40;
+  constexpr double kLarger = 1.05;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d seen(0.1 * (i % 10) - 0.45, 0.1 * (i / 10) - 0.45, kDepthM);
+    scene.landmarks.push_back(testing::landmark_at(scene.pose.enu_m + enu_from_camera * seen, 0.4));
+    scene.features.push_back(testing::seen_feature(scene.landmarks.back(), scene.pose));
+    scene.features.back().scale_px *= static_cast<float>(kLarger);
+    scene.matches.push_back({scene.matches.size(), scene.matches.size()});
+  }
+  const Eigen::Vector3d ahead = enu_from_camera.col(2);
+  PoseBelief before = LandmarkScene::belief(scene.state(), 0.1, 1);
+  before.covariance.topLeftCorner<3, 3>() += 9 * ahead * ahead.transpose();
+  const PoseBelief after = solver_of(scene).estimate(before, before.mean, scene.matches).belief;
+  const Eigen::Matrix3d covariance = after.covariance.topLeftCorner<3, 3>();
+  const double sigma_m = std::sqrt(ahead.dot(covariance * ahead));
+  EXPECT_LT(std::abs(ahead.dot(after.mean.head<3>() - scene.pose.enu_m)), 2.5 * sigma_m);
+  EXPECT_GT(sigma_m, 0.5);  // 0.12 of 40 m by a hundred would be 0.48
+  EXPECT_LT(sigma_m, kDepthM * 0.06);
 }
 
 TEST(PoseSolver, WithoutMatchesItGivesTheBeliefBack) {
@@ -217,7 +242,8 @@ TEST(PoseSolver, TwoMatchesCompleteTheBeliefToAPose) {
   before.mean[kEast] += 1.5;
   before.mean[kNorth] -= 1;
   before.mean[kHeading] += 5 * kRadPerDeg;
-  const StateVector proposed = solver_of(scene).hypothesis(before, scene.matches);
+  const StateVector proposed =
+      solver_of(scene).hypothesis(before, before.covariance.inverse(), scene.matches);
   EXPECT_NEAR(proposed[kEast], scene.pose.enu_m.x(), 0.1);
   EXPECT_NEAR(proposed[kNorth], scene.pose.enu_m.y(), 0.1);
   EXPECT_NEAR(proposed[kHeading], scene.pose.heading_rad, 0.3 * kRadPerDeg);
@@ -227,7 +253,7 @@ TEST(PoseSolver, ALandmarkBehindTheCameraAgreesWithNothing) {
   LandmarkScene scene(20);
   scene.landmarks[0].enu_m = 2 * scene.pose.enu_m - scene.landmarks[0].enu_m;
   const PoseBelief before = LandmarkScene::belief(beside(scene, 0.1, 0.1), 0.5, 1);
-  EXPECT_EQ(solver_of(scene).pixel_sigmas(scene.state(), {0, 0}),
+  EXPECT_EQ(solver_of(scene).pixel_sigmas(scene.state(), {{0, 0}}).front(),
             std::numeric_limits<double>::infinity());
   const PoseEstimate estimate = solver_of(scene).estimate(before, before.mean, scene.matches);
   EXPECT_LT(position_error_m(estimate.belief, scene.pose), 0.01);
@@ -243,8 +269,8 @@ TEST(PoseSolver, AFeatureIsAsUncertainAsItIsLarge) {
     scene.features[0].scale_px = static_cast<float>(scale_px);
     const double sigma_px =
         std::hypot(settings.pixel_sigma_px, settings.pixel_per_scale * scale_px);
-    EXPECT_NEAR(solver_of(scene, settings).pixel_sigmas(scene.state(), {0, 0}), 10 / sigma_px,
-                1e-3);
+    EXPECT_NEAR(solver_of(scene, settings).pixel_sigmas(scene.state(), {{0, 0}}).front(),
+                10 / sigma_px, 1e-3);
   }
 }
 
@@ -256,9 +282,9 @@ TEST(PoseSolver, DepthIsUncertainAlongTheMappingRay) {
   scene.landmarks[0].depth_sigma_m = 2;
   const Eigen::Matrix3d enu_from_camera = camera_from_enu(scene.pose).transpose();
   scene.landmarks[0].mapping_ray = (scene.landmarks[0].enu_m - scene.pose.enu_m).normalized();
-  const double as_mapped = solver_of(scene).pixel_sigmas(scene.state(), {0, 0});
+  const double as_mapped = solver_of(scene).pixel_sigmas(scene.state(), {{0, 0}}).front();
   scene.landmarks[0].mapping_ray = enu_from_camera.col(0);  // mapped across
-  const double from_aside = solver_of(scene).pixel_sigmas(scene.state(), {0, 0});
+  const double from_aside = solver_of(scene).pixel_sigmas(scene.state(), {{0, 0}}).front();
   EXPECT_GT(as_mapped, 10);
   EXPECT_LT(from_aside, 2);
 }

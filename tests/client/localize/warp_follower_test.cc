@@ -43,27 +43,31 @@ class WarpFollowing : public ::testing::Test {
   WarpFollowing() {
     LocalizerSettings settings;
     settings.method = *method_named("wisurf");
-    auto made = make_follower(session_, {600, 400, 400}, settings);
-    follower_ = std::move(*made);
+    auto made = make_scout(session_, {600, 400, 400, 400}, settings);
+    scout_ = std::move(*made);
   }
 
-  // A frame taken at `along_m`.
-  QueryFrame frame(double along_m) {
+  // A frame taken at `along_m`, until the next one.
+  SeenFrame& frame(double along_m) {
     image_ = image_from(along_m);
     time_s_ += 0.2;
-    return {time_s_, {}, [this]() -> const ImageDescriptor& { return image_; }};
+    frame_ = {time_s_, {}, [this]() -> const ImageDescriptor& { return image_; }};
+    return seen_.emplace(frame_);
   }
 
   void start_at(double along_m) {
-    const QueryFrame first = frame(along_m);
-    const auto seen = follower_->find(first, AlongRange{along_m - 20, along_m + 20});
-    ASSERT_TRUE(seen.ok() && seen->has_value());
-    ASSERT_TRUE(follower_->start(first, **seen).ok());
+    auto seen = scout_->look(frame(along_m), AlongRange{along_m - 20, along_m + 20});
+    ASSERT_TRUE(seen.ok());
+    ASSERT_EQ(seen->size(), 1U);
+    follower_ = std::move(seen->front().follower);
   }
 
   SegmentSession session_ = straight_road();
   ImageDescriptor image_{};
   double time_s_ = 10;
+  QueryFrame frame_;
+  std::optional<SeenFrame> seen_;
+  std::unique_ptr<Scout> scout_;
   std::unique_ptr<Follower> follower_;
 };
 
@@ -89,17 +93,17 @@ TEST_F(WarpFollowing, StaysAtTheEndOfTheRoad) {
 }
 
 TEST_F(WarpFollowing, NothingIsFoundWhereTheMapHasNoFrames) {
-  const auto seen = follower_->find(frame(50), AlongRange{300, 340});
+  const auto seen = scout_->look(frame(50), AlongRange{300, 340});
   ASSERT_TRUE(seen.ok());
-  EXPECT_FALSE(seen->has_value());
+  EXPECT_TRUE(seen->empty());
 }
 
-TEST(MakeFollower, RefusesALayerOfOtherItems) {
+TEST(MakeScout, RefusesALayerOfOtherItems) {
   SegmentSession session = straight_road();
   session.items = LayerItems::tracklets;
   LocalizerSettings settings;
   settings.method = *method_named("wisurf");
-  const auto made = make_follower(session, {600, 400, 400}, settings);
+  const auto made = make_scout(session, {600, 400, 400, 400}, settings);
   ASSERT_FALSE(made.ok());
   EXPECT_EQ(made.error().code, ErrorCode::corrupt);
   EXPECT_NE(made.error().line().find("layer 'wisurf': the method cannot use its tracklets"),

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+
+#include "client/localize/landmark_follower.h"
+#include "client/localize/pose_consensus.h"
+
+namespace milepost {
+namespace {
+
+class LandmarkScout : public Scout {
+ public:
+  LandmarkScout(const SegmentSession& session, const QueryCamera& camera,
+                const LocalizerSettings& settings, const LandmarkMethod& method)
+      : search_{&session,
+                {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px,
+                 camera.principal_y_px},
+                {camera.width_px, camera.height_px > 0 ? camera.height_px : camera.width_px},
+                method,
+                settings.on_estimate},
+        window_(session.layer, settings.window.reach, session.line) {}
+
+  Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
+    const RouteLine& line = search_.session->line;
+    const Status covered = window_.cover(around);
+    if (!covered.ok()) return covered.error();
+    lay_origin_near(line.point_at(std::clamp(around.middle_m(), 0.0, line.length_m())));
+    std::vector<Sighting> sightings;
+    for (const double along_m : densest_along_m(search_.compact(frame), around)) {
+      auto follower = std::make_unique<LandmarkFollower>(search_, window_);
+      const Followed begun = follower->begin(frame, along_m);
+      if (begun.failure) return *begun.failure;
+      if (!begun.measured) continue;
+      sightings.push_back({std::move(follower), begun.matches, begun.log_bayes_factor});
+    }
+    std::ranges::stable_sort(sightings, std::greater<>(), &Sighting::log_bayes_factor);
+    return sightings;
+  }
+
+ private:
+  void lay_origin_near(const GeoPoint& place) {
+    constexpr double kMaxDistanceM = 100;
+    const EnuPoint off = window_.frame().enu_from_geo(place);
+    if (std::hypot(off.east_m, off.north_m) > kMaxDistanceM) window_.set_origin(place);
+  }
+
+  // Where the scales of what looks alike put the camera: the densest places, apart from each other.
+  std::vector<double> densest_along_m(const CompactFrame& frame, const AlongRange& around) const {
+    const LandmarkMethod& method = search_.method;
+    const auto matches = match_anywhere(frame, search_.session->codebook->step(),
+                                        window_.landmarks(), around, method.match);
+    std::vector<PositionEstimate> left =
+        along_by_scale(matches, frame.features, window_.landmarks(), search_.camera,
+                       search_.session->line, window_.frame(), method.solver.scale_sigma);
+    std::vector<double> places;
+    while (static_cast<int>(places.size()) < method.max_start_places) {
+      const auto densest = combine_robustly(left, method.vote);
+      if (!densest || densest->support < method.min_start_support) break;
+      places.push_back(densest->along_m);
+      std::erase_if(left, [&](const PositionEstimate& estimate) {
+        return std::abs(estimate.along_m - densest->along_m) < method.start_places_apart_m;
+      });
+    }
+    return places;
+  }
+
+  LandmarkSearch search_;
+  LandmarkWindow window_;
+};
+
+}  // namespace
+
+std::unique_ptr<Scout> make_landmark_scout(const SegmentSession& session, const QueryCamera& camera,
+                                           const LocalizerSettings& settings,
+                                           const LandmarkMethod& method) {
+  return std::make_unique<LandmarkScout>(session, camera, settings, method);
+}
+
+}  // namespace milepost

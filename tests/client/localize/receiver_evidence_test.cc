@@ -1,0 +1,58 @@
+#include "client/localize/receiver_evidence.h"
+
+#include <gtest/gtest.h>
+
+namespace milepost {
+namespace {
+
+constexpr ReceiverEvidenceSettings kSettings;
+constexpr GeoPoint kPlace = {49.0, 8.4, 110};
+constexpr double kMetresOfADegree = 111229;  // of latitude, here
+constexpr double kSigmaM = 5;
+
+CoarsePosition reading(double off_m, double timestamp_s) {
+  return {timestamp_s,
+          {kPlace.latitude_deg + off_m / kMetresOfADegree, kPlace.longitude_deg, 0},
+          kSigmaM};
+}
+
+// A first reading, heard at once.
+double first(double off_m) {
+  ReceiverEvidence evidence(kSettings);
+  return evidence.log_bayes_factor(reading(off_m, 10), kPlace, 10);
+}
+
+TEST(ReceiverEvidence, SpeaksForWhereItIsAndAgainstWhereItIsNot) {
+  EXPECT_GT(first(0), 1);
+  EXPECT_NEAR(first(kSettings.elsewhere_sigmas * kSigmaM), 0, 1e-3);
+  EXPECT_LT(first(30), -3);
+  EXPECT_LT(first(100), first(30));
+}
+
+TEST(ReceiverEvidence, AReadingFarOffIsNotTheEnd) {
+  EXPECT_GT(first(100), -15);  // a normal density would say -200
+}
+
+TEST(ReceiverEvidence, AReadingCountsOnce) {
+  ReceiverEvidence evidence(kSettings);
+  EXPECT_LT(evidence.log_bayes_factor(reading(30, 10), kPlace, 10), 0);
+  EXPECT_EQ(evidence.log_bayes_factor(reading(30, 10), kPlace, 10.1), 0);
+}
+
+// Its error lasts: two readings within a second are hardly two witnesses.
+TEST(ReceiverEvidence, ReadingsCountAsFarAsTheyAreIndependent) {
+  ReceiverEvidence evidence(kSettings);
+  const double once = evidence.log_bayes_factor(reading(30, 10), kPlace, 10);
+  const double tenth = kSettings.correlation_s / 10;
+  EXPECT_NEAR(evidence.log_bayes_factor(reading(30, 10 + tenth), kPlace, 10 + tenth), once / 10,
+              1e-9);
+  EXPECT_NEAR(evidence.log_bayes_factor(reading(30, 100), kPlace, 100), once, 1e-9);
+}
+
+TEST(ReceiverEvidence, AnOldReadingSaysLess) {
+  ReceiverEvidence evidence(kSettings);
+  EXPECT_GT(evidence.log_bayes_factor(reading(30, 10), kPlace, 12), first(30));
+}
+
+}  // namespace
+}  // namespace milepost

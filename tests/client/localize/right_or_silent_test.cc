@@ -1,0 +1,192 @@
+// The localizer by landmarks where its belief is wrong: it says so, or nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "client/localize/localizer.h"
+#include "tests/client/localize/landmark_road.h"
+
+namespace milepost {
+namespace {
+
+using testing::LandmarkRoad;
+using testing::LandmarkRoadMap;
+using testing::RoadPose;
+
+constexpr double kFrameM = 1;     // between frames ...
+constexpr double kSpeedMps = 10;  // ... at this speed
+constexpr double kReceiverSigmaM = 5;
+
+class RightOrSilent : public ::testing::Test {
+ protected:
+  static const LandmarkRoad& road() {
+    static const LandmarkRoad road;
+    return road;
+  }
+
+  static LocalizerSettings settings() {
+    LocalizerSettings settings;
+    settings.method = *method_named(kDefaultMethod);
+    settings.prefetch_m = 0;
+    return settings;
+  }
+
+  // The fix of the next frame, taken there.
+  Fix fix(const RoadPose& truth) { return fix_of(road().seen_from(truth, 0, random_)); }
+
+  Fix fix_of(const FeatureSet& set) {
+    const auto fix = localizer_.localize(
+        {time_s_, [&](const FeatureParameters&) -> const FeatureSet& { return set; }});
+    time_s_ += kFrameM / kSpeedMps;
+    EXPECT_TRUE(fix.ok()) << fix.error().line();
+    return fix.ok() ? *fix : Fix();
+  }
+
+  void receive(double along_m) {
+    localizer_.observe({time_s_, road().line().point_at(along_m), kReceiverSigmaM});
+  }
+
+  // Tracks from 100 m to where it is then, without the receiver.
+  double track() {
+    receive(102);
+    double along_m = 100;
+    FixStatus status = FixStatus::initializing;
+    for (; along_m < 150; along_m += kFrameM) status = fix({along_m, 0, 0}).status;
+    EXPECT_EQ(status, FixStatus::tracking);
+    return along_m;
+  }
+
+  // Off by more than a metre and five sigmas, in plan.
+  static bool is_confidently_wrong(const Fix& fix, const RoadPose& truth) {
+    if (!fix.along_m) return false;
+    const double off_m = std::hypot(*fix.along_m - truth.along_m, *fix.lateral_m - truth.lateral_m);
+    return off_m > std::max(1.0, 5 * std::hypot(fix.sigma_m, *fix.lateral_sigma_m));
+  }
+
+  static bool is_right(const Fix& fix, const RoadPose& truth) {
+    return fix.status == FixStatus::tracking && std::abs(*fix.along_m - truth.along_m) < 0.2 &&
+           std::abs(*fix.lateral_m - truth.lateral_m) < 0.2;
+  }
+
+  std::shared_ptr<LandmarkRoadMap> map_ = std::make_shared<LandmarkRoadMap>(road());
+  Localizer localizer_{map_, road().query_camera(), settings()};
+  double time_s_ = 100;
+  std::mt19937 random_{11};
+};
+
+// By how much the belief is pushed in mid-drive.
+struct Push {
+  double along_m = 0;
+  double lateral_m = 0;
+};
+
+class PushedAway : public RightOrSilent, public ::testing::WithParamInterface<Push> {};
+
+TEST_P(PushedAway, ItIsLostWithinFiveFramesAndClaimsNothingMeanwhile) {
+  RoadPose truth{track() + GetParam().along_m, GetParam().lateral_m, 0};
+  Fix last;
+  for (int frame = 0; frame < 5; ++frame) {
+    last = fix(truth);
+    EXPECT_FALSE(is_confidently_wrong(last, truth))
+        << frame << ": " << last.along_m.value_or(-1) << " at " << last.sigma_m;
+    truth.along_m += kFrameM;
+  }
+  truth.along_m -= kFrameM;
+  EXPECT_TRUE(is_right(last, truth) || last.status == FixStatus::lost ||
+              last.status == FixStatus::initializing)
+      << name_of(last.status);
+}
+
+TEST_P(PushedAway, TheReceiverBringsItBack) {
+  RoadPose truth{track() + GetParam().along_m, GetParam().lateral_m, 0};
+  int frames = 0;
+  for (Fix found; !is_right(found, truth) && frames < 30; ++frames) {
+    truth.along_m += kFrameM;
+    receive(truth.along_m + 3);
+    found = fix(truth);
+    EXPECT_FALSE(is_confidently_wrong(found, truth)) << frames;
+  }
+  EXPECT_LT(frames, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(AlongAndAcross, PushedAway,
+                         ::testing::Values(Push{5, 0}, Push{10, 0}, Push{20, 0}, Push{30, 0},
+                                           Push{-10, 0}, Push{0, 3}, Push{0, -8}));
+
+// Features that are no landmarks, as many as elsewhere.
+FeatureSet unknown_road(FeatureSet seen, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> x_px(0, LandmarkRoad::kWidthPx);
+  std::uniform_real_distribution<float> y_px(0, LandmarkRoad::kHeightPx);
+  for (Feature& feature : seen.features) {
+    feature.x_px = x_px(random);
+    feature.y_px = y_px(random);
+  }
+  seen.descriptors = testing::unlike_descriptors(seen.size(), seed);
+  return seen;
+}
+
+TEST_F(RightOrSilent, OnAnotherRoadThanTheMapsItClaimsNothing) {
+  for (int frame = 0; frame < 40; ++frame) {
+    receive(100 + frame);
+    const RoadPose at{100.0 + frame, 0, 0};
+    const Fix nowhere = fix_of(unknown_road(road().seen_from(at, 0, random_), 1000 + frame));
+    EXPECT_NE(nowhere.status, FixStatus::tracking);
+    EXPECT_FALSE(nowhere.along_m) << frame;
+  }
+}
+
+TEST_F(RightOrSilent, OffOnToAnUnknownRoadItIsLost) {
+  double along_m = track();
+  Fix fix;
+  for (int frame = 0; frame < 5; ++frame, along_m += kFrameM) {
+    receive(along_m);
+    fix = fix_of(unknown_road(road().seen_from({along_m, 0, 0}, 0, random_), 1000 + frame));
+    EXPECT_NE(fix.status, FixStatus::tracking);
+  }
+  EXPECT_EQ(fix.status, FixStatus::lost);
+}
+
+TEST_F(RightOrSilent, OneFrameClaimsNothing) {
+  receive(102);
+  const Fix first = fix({100, 0, 0});
+  EXPECT_EQ(first.status, FixStatus::initializing);
+  EXPECT_NEAR(*first.along_m, 100, 0.2);
+  EXPECT_GT(first.sigma_m, 0.3);  // of all that it may be
+  EXPECT_EQ(fix({101, 0, 0}).status, FixStatus::tracking);
+}
+
+TEST_F(RightOrSilent, ComingFromBeyondTheMapItIsOffUntilTheMapIsSeen) {
+  for (double before_m = 60; before_m > 25; before_m -= kFrameM) {
+    const GeoPoint start = road().line().point_at(0);
+    localizer_.observe({time_s_,
+                        {start.latitude_deg - before_m / 111229, start.longitude_deg, 0},
+                        kReceiverSigmaM});
+    EXPECT_EQ(fix_of(unknown_road(road().seen_from({5, 0, 0}, 0, random_), 7)).status,
+              FixStatus::off_map);
+  }
+  int frames = 0;
+  FixStatus status = FixStatus::off_map;
+  for (double along_m = 1; status != FixStatus::tracking && frames < 10; along_m += kFrameM) {
+    receive(along_m);
+    status = fix({along_m, 0, 0}).status;
+    ++frames;
+  }
+  EXPECT_LE(frames, 3);
+}
+
+TEST_F(RightOrSilent, LeavingTheMapItIsOffAndStaysSo) {
+  receive(570);
+  double along_m = 570;
+  for (; along_m < 602; along_m += kFrameM) fix({along_m, 0, 0});
+  Fix fix;
+  for (int frame = 0; frame < 30; ++frame) {
+    receive(LandmarkRoad::kLengthM);  // the receiver lags
+    fix = fix_of(unknown_road(road().seen_from({590, 0, 0}, 0, random_), 1000 + frame));
+    EXPECT_NE(fix.status, FixStatus::tracking) << frame;
+  }
+  EXPECT_EQ(fix.status, FixStatus::off_map);
+}
+
+}  // namespace
+}  // namespace milepost
