@@ -76,7 +76,8 @@ void LandmarkFollower::measure(const CompactFrame& frame, const PoseBelief& befo
   followed.log_bayes_factor = log_bayes_factor(support);
   if (estimate) followed.log_bayes_factor += log_density_of_leap(before, estimate->belief);
   const double least =
-      is_searched ? method_.min_searched_log_bayes_factor : method_.min_log_bayes_factor;
+      std::max(is_searched ? method_.min_searched_log_bayes_factor : method_.min_log_bayes_factor,
+               method_.min_usual_part * usual_log_bayes_factor_);
   if (estimate && followed.log_bayes_factor >= least) {
     take(*estimate, support, frame, followed);
   } else if (static_cast<int>(frame.features.size()) >= method_.min_seeing_features) {
@@ -232,6 +233,8 @@ void LandmarkFollower::take(const PoseEstimate& estimate, const PlaceSupport& su
   belief_ = estimate.belief;
   last_along_m_ = placed(belief_).along_m;
   missed_part_ = support.expected > 0 ? 1 - support.found / support.expected : 1;
+  constexpr double kOfLate = 0.1;  // the weight of the latest frame
+  usual_log_bayes_factor_ += kOfLate * (log_bayes_factor(support) - usual_log_bayes_factor_);
   followed.measured = true;
   followed.matches = static_cast<int>(estimate.agreeing.size());
   tell(estimate, frame);

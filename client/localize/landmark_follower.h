@@ -75,7 +75,8 @@ class LandmarkFollower : public Follower {
   PoseBelief belief_;       // in the window's frame
   double timestamp_s_ = 0;  // of the belief
   double last_along_m_ = 0;
-  double missed_part_ = 0;  // of the landmarks expected in the frame taken in last
+  double missed_part_ = 0;             // of the landmarks expected in the frame taken in last
+  double usual_log_bayes_factor_ = 0;  // of the frames taken in of late
 };
 
 }  // namespace milepost

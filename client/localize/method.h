@@ -53,8 +53,10 @@ struct LandmarkMethod {
   double start_places_apart_m = 4;  // ... and so far apart
   int min_start_support = 6;        // votes or matches that agree
   PlaceSupportSettings support;
-  // A frame is taken in that speaks no more against the place than so ...
+  // A frame is taken in that speaks for the place as much as this, and by this part of what frames
+  // said of late ...
   double min_log_bayes_factor = 0;
+  double min_usual_part = 0.15;
   double min_searched_log_bayes_factor = 2;  // ... and, not found where it was expected, for it.
   // A frame of so many features that is not taken in speaks so against the place at least.
   int min_seeing_features = 30;
