@@ -200,7 +200,7 @@ void Localizer::observe(const Odometry& odometry) {
   if (auto* following = std::get_if<Following>(&impl_->state)) {
     following->place.follower->observe(odometry);
   } else {
-    Searching& searching = std::get<Searching>(impl_->state);
+    auto& searching = std::get<Searching>(impl_->state);
     for (Place& place : searching.places) place.follower->observe(odometry);
     if (searching.left) searching.left->follower->observe(odometry);
   }
@@ -302,7 +302,7 @@ void Localizer::Impl::carry(Searching& searching, SeenFrame& frame) {
 }
 
 Result<Fix> Localizer::Impl::search(SeenFrame& frame) {
-  Searching& searching = std::get<Searching>(state);
+  auto& searching = std::get<Searching>(state);
   carry(searching, frame);
   const bool receiver_knows = is_fresh(coarse, frame.timestamp_s());
   const auto& around = receiver_knows ? coarse : searching.lost_at;
@@ -372,7 +372,7 @@ void Localizer::Impl::claim(Place place) {
 }
 
 Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
-  Following& following = std::get<Following>(state);
+  auto& following = std::get<Following>(state);
   Place& place = following.place;
   if (!place.is_on_segment(place.follower->expected_along_m(frame.timestamp_s()))) {
     Searching left;
