@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "client/localize/pose_consensus.h"
+#include "client/localize/student_t.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -121,12 +122,12 @@ std::optional<PoseEstimate> LandmarkFollower::searched(const CompactFrame& frame
                                       region, method_.match);
   const PoseSolver solver(search_.camera, frame.features, window_.landmarks(), method_.solver);
   const auto agreed = estimate_by_consensus(solver, before, matches, method_.consensus);
-  if (!agreed || static_cast<int>(agreed->agreeing.size()) < method_.min_start_support)
+  if (!agreed || static_cast<int>(agreed->agreeing.size()) < search_.min_start_support)
     return std::nullopt;
   const auto again = match_expected(frame, search_.session->codebook->step(), window_.landmarks(),
                                     region, agreed->belief, search_.camera, method_.match);
   PoseEstimate estimate = solver.estimate(before, agreed->belief.mean, again);
-  if (static_cast<int>(estimate.agreeing.size()) < method_.min_start_support) return std::nullopt;
+  if (static_cast<int>(estimate.agreeing.size()) < search_.min_start_support) return std::nullopt;
   return estimate;
 }
 
@@ -135,7 +136,7 @@ PlaceSupport LandmarkFollower::support_of(const PoseEstimate& estimate,
   const PoseSolver solver(search_.camera, frame.features, window_.landmarks(), method_.solver);
   const double along_m = std::clamp(placed(estimate.belief).along_m, 0.0, line_.length_m());
   return milepost::support_of(estimate, along_m, frame, window_.landmarks(), solver, search_.camera,
-                              search_.image, method_.support);
+                              search_.image, method_.match);
 }
 
 // How unlikely it is that the vehicle is where a frame puts it and not where it was expected, by
@@ -147,10 +148,8 @@ double LandmarkFollower::log_density_of_leap(const PoseBelief& before,
   const Eigen::Vector2d leap_m = found.mean.head<2>() - before.mean.head<2>();
   const Eigen::Matrix2d covariance = before.covariance.topLeftCorner<2, 2>();
   const double squared_sigmas = leap_m.dot(covariance.ldlt().solve(leap_m));
-  const auto log_density = [](double squared) {
-    return -(kDegrees + 2) / 2 * std::log1p(squared / kDegrees);
-  };
-  return std::min(0.0, log_density(squared_sigmas) - log_density(kUsualSigmas * kUsualSigmas));
+  return std::min(0.0, log_student_t(squared_sigmas, kDegrees) -
+                           log_student_t(kUsualSigmas * kUsualSigmas, kDegrees));
 }
 
 PoseBelief LandmarkFollower::first_belief(double along_m) const {

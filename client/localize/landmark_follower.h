@@ -17,6 +17,7 @@ struct LandmarkSearch {
   Pinhole camera;
   ImageSize image;
   LandmarkMethod method;
+  int min_start_support = 0;  // votes or matches that agree
   std::function<void(const TrackletEstimate&)> on_estimate;
 
   const CompactFrame& compact(SeenFrame& frame) const {

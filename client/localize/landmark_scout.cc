@@ -16,6 +16,7 @@ class LandmarkScout : public Scout {
                  camera.principal_y_px},
                 {camera.width_px, camera.height_px > 0 ? camera.height_px : camera.width_px},
                 method,
+                settings.min_start_support,
                 settings.on_estimate},
         window_(session.layer, settings.window.reach, session.line) {}
 
@@ -54,7 +55,7 @@ class LandmarkScout : public Scout {
     std::vector<double> places;
     while (static_cast<int>(places.size()) < method.max_start_places) {
       const auto densest = combine_robustly(left, method.vote);
-      if (!densest || densest->support < method.min_start_support) break;
+      if (!densest || densest->support < search_.min_start_support) break;
       places.push_back(densest->along_m);
       std::erase_if(left, [&](const PositionEstimate& estimate) {
         return std::abs(estimate.along_m - densest->along_m) < method.start_places_apart_m;

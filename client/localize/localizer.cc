@@ -12,7 +12,6 @@ namespace milepost {
 namespace {
 
 constexpr double kMaxStartTurnDeg = 60;    // between a heading that is known and a segment's
-constexpr double kCoarseSpeedMps = 20;     // how fast a coarse position grows old
 constexpr double kMaxOdometryAgeS = 0.5;   // at a start
 constexpr std::size_t kMaxCandidates = 4;  // segments searched
 constexpr double kEndMarginM = 5;          // the vehicle may be so far beyond a segment's ends
@@ -241,8 +240,8 @@ Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(const NearbySegment
 Result<double> Localizer::Impl::scout(SeenFrame& frame, const CoarsePosition& around,
                                       Searching& searching) {
   const double age_s = frame.timestamp_s() - around.timestamp_s;
-  const double reach_m =
-      settings.start_sigmas * around.sigma_m + settings.start_reach_m + kCoarseSpeedMps * age_s;
+  const double reach_m = settings.start_sigmas * around.sigma_m + settings.start_reach_m +
+                         settings.receiver.speed_mps * age_s;
   const double radius_m = settings.start_radius_m + settings.start_sigmas * around.sigma_m;
   Result<std::vector<NearbySegment>> near = source->segments_near(around.position, radius_m);
   if (!near) return near.error();

@@ -80,7 +80,7 @@ struct LocalizerSettings {
   double start_radius_m = 30;   // segments farther from the coarse position are not looked at
   double start_sigmas = 3;      // of the coarse position, searched along the segment
   double start_reach_m = 5;     // ... and so much more
-  int min_start_support = 6;    // tracklets that must agree before a start is believed
+  int min_start_support = 6;    // tracklets or landmarks that must agree before a start is weighed
   double max_coarse_age_s = 3;  // older positions start and contradict nothing
   PlaceOddsSettings odds;
   ReceiverEvidenceSettings receiver;

@@ -8,7 +8,6 @@
 #include "client/localize/estimate.h"
 #include "client/localize/landmark_matching.h"
 #include "client/localize/matching.h"
-#include "client/localize/place_evidence.h"
 #include "client/localize/pose_consensus.h"
 #include "client/localize/scale_change.h"
 #include "client/localize/tracker.h"
@@ -51,8 +50,6 @@ struct LandmarkMethod {
   RobustSettings vote;              // over along, where a start is looked for
   int max_start_places = 3;         // of the densest votes, tried in a frame ...
   double start_places_apart_m = 4;  // ... and so far apart
-  int min_start_support = 6;        // votes or matches that agree
-  PlaceSupportSettings support;
   // A frame is taken in that speaks for the place as much as this, and by this part of what frames
   // said of late ...
   double min_log_bayes_factor = 0;

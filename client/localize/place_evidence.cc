@@ -11,7 +11,12 @@ namespace milepost {
 namespace {
 
 constexpr double kNearestM = 0.5;
-constexpr double kCutoffSigmas = 4;  // of residuals that agree
+constexpr double kCutoffSigmas = PoseSolverSettings().cutoff;  // of residuals that agree
+constexpr double kCellsAcross = 12;  // of the image's width; cells are square
+constexpr double kBorderPx = 8;      // where SIFT finds nothing
+// Where a frame shows nothing it misses nothing: a landmark is expected that has a feature of the
+// frame, whichever, so near to its place and so like it in scale that it could be a match.
+constexpr double kTexturePx = 12;
 
 struct Weighted {
   double value = 0;
@@ -30,7 +35,8 @@ constexpr std::array<Weighted, 5> kFoundElsewhere = {
 constexpr std::array<Weighted, 4> kVarianceElsewhere = {
     {{0.4, 0.1}, {1.2, 0.25}, {2.5, 0.4}, {6, 0.25}}};
 
-// Logarithm of the density of a residual of the given squared length, Rayleigh's cut off.
+// Of a support, where that share is found, with residuals whose lengths are Rayleigh's of that
+// variance, cut off; up to what is common to all shares and variances.
 double log_likelihood(const PlaceSupport& support, double found, double variance) {
   const double normal = variance * (1 - std::exp(-kCutoffSigmas * kCutoffSigmas / (2 * variance)));
   return support.found * (std::log(found) - std::log(normal)) +
@@ -53,17 +59,22 @@ double log_mixture(const PlaceSupport& support, std::span<const Weighted> found,
   return highest + std::log(sum);
 }
 
+bool is_inside(const Eigen::Vector2d& pixel, const ImageSize& image) {
+  return pixel.x() >= kBorderPx && pixel.x() < image.width_px - kBorderPx &&
+         pixel.y() >= kBorderPx && pixel.y() < image.height_px - kBorderPx;
+}
+
 // Whether the frame has a feature of about that size there, be it the landmark's or another's.
 bool is_textured(const CompactFrame& frame, const Eigen::Vector2d& pixel, double scale_px,
-                 const PlaceSupportSettings& settings) {
-  const auto radius_px = static_cast<float>(settings.texture_px);
+                 double max_log_scale) {
+  constexpr auto kRadiusPx = static_cast<float>(kTexturePx);
   bool found = false;
   frame.grid.visit_near(
-      static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius_px, [&](std::size_t f) {
+      static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), kRadiusPx, [&](std::size_t f) {
         const Feature& feature = frame.features[f];
         const Eigen::Vector2d off = Eigen::Vector2d(feature.x_px, feature.y_px) - pixel;
         const double change = std::log(feature.scale_px / scale_px);
-        found = found || (off.norm() <= radius_px && std::abs(change) <= settings.max_log_scale);
+        found = found || (off.norm() <= kRadiusPx && std::abs(change) <= max_log_scale);
       });
   return found;
 }
@@ -73,7 +84,7 @@ bool is_textured(const CompactFrame& frame, const Eigen::Vector2d& pixel, double
 PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const CompactFrame& frame,
                         const std::vector<PlacedLandmark>& landmarks, const PoseSolver& solver,
                         const Pinhole& given, const ImageSize& image,
-                        const PlaceSupportSettings& settings) {
+                        const LandmarkMatchSettings& settings) {
   struct Cell {
     int expected = 0;
     int found = 0;
@@ -86,7 +97,7 @@ PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const Comp
   const CameraPose pose = estimate.belief.pose();
   const Pinhole camera = estimate.belief.camera(given);
   const Eigen::Matrix3d rotation = camera_from_enu(pose);
-  const double cell_px = image.width_px / settings.cells_across;
+  const double cell_px = image.width_px / kCellsAcross;
   PlaceSupport support;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const PlacedLandmark& landmark = landmarks[i];
@@ -94,13 +105,11 @@ PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const Comp
     const Eigen::Vector3d seen = rotation * (landmark.enu_m - pose.enu_m);
     if (!(seen.z() > kNearestM)) continue;
     const Eigen::Vector2d pixel = camera.pixel_of(seen);
-    const double border = settings.border_px;
-    if (!(pixel.x() >= border && pixel.x() < image.width_px - border && pixel.y() >= border &&
-          pixel.y() < image.height_px - border))
-      continue;
+    if (!is_inside(pixel, image)) continue;
     const double scale_px = landmark.size_m * camera.focal_px() / seen.z();
     const auto found = sigmas.find(i);
-    if (found == sigmas.end() && !is_textured(frame, pixel, scale_px, settings)) continue;
+    if (found == sigmas.end() && !is_textured(frame, pixel, scale_px, settings.max_log_scale))
+      continue;
     Cell& cell =
         cells[{static_cast<int>(pixel.x() / cell_px), static_cast<int>(pixel.y() / cell_px)}];
     ++cell.expected;

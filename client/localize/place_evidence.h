@@ -24,22 +24,12 @@ struct ImageSize {
   int height_px = 0;
 };
 
-struct PlaceSupportSettings {
-  double cells_across = 12;   // of the image's width; cells are square
-  double border_px = 8;       // where SIFT finds nothing
-  double along_margin_m = 4;  // beyond the along range where a landmark was mapped
-  // Where a frame shows nothing it misses nothing: a landmark is expected that has a feature of the
-  // frame, whichever, so near to its place and so like it in scale.
-  double texture_px = 12;
-  double max_log_scale = 0.5;
-};
-
 // Of the landmarks mapped about where the camera is (`along_m`), those that an estimate says are in
 // the image, where the frame shows something.
 PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const CompactFrame& frame,
                         const std::vector<PlacedLandmark>& landmarks, const PoseSolver& solver,
                         const Pinhole& given, const ImageSize& image,
-                        const PlaceSupportSettings& settings);
+                        const LandmarkMatchSettings& settings);
 
 // The logarithm of how much more likely the support is from where the camera is than from
 // elsewhere. Both likelihoods are mixtures over what is not known of the frame: the share of

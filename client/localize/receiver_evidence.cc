@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/localize/student_t.h"
+
 namespace milepost {
 
 double ReceiverEvidence::log_bayes_factor(const CoarsePosition& reading, const GeoPoint& place,
@@ -20,8 +22,8 @@ double ReceiverEvidence::log_bayes_factor(const CoarsePosition& reading, const G
                                          moved_m / sigma_m / settings_.moved_sigmas));
   }
   counted_ = Counted{reading.timestamp_s, off};
-  const auto log_density = [&](double sigmas) {  // of two dimensions, up to a constant
-    return -(settings_.degrees + 2) / 2 * std::log1p(sigmas * sigmas / settings_.degrees);
+  const auto log_density = [&](double sigmas) {
+    return log_student_t(sigmas * sigmas, settings_.degrees);
   };
   const double log_bayes_factor = log_density(std::hypot(off.east_m, off.north_m) / sigma_m) -
                                   log_density(settings_.elsewhere_sigmas);
