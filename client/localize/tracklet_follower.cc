@@ -98,8 +98,8 @@ class TrackletFollower : public Follower {
 class TrackletScout : public Scout {
  public:
   TrackletScout(const SegmentSession& session, const QueryCamera& camera,
-                const LocalizerSettings& settings, const TrackletMethod& method)
-      : session_(session), camera_(camera), settings_(settings), method_(method) {}
+                LocalizerSettings settings, const TrackletMethod& method)
+      : session_(session), camera_(camera), settings_(std::move(settings)), method_(method) {}
 
   Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
     auto follower = std::make_unique<TrackletFollower>(session_, camera_, settings_, method_);

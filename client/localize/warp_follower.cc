@@ -163,9 +163,9 @@ class WarpFollower : public Follower {
 
 class WarpScout : public Scout {
  public:
-  WarpScout(const SegmentSession& session, const QueryCamera& camera,
-            const LocalizerSettings& settings, const WarpMethod& method)
-      : session_(session), camera_(camera), settings_(settings), method_(method) {}
+  WarpScout(const SegmentSession& session, const QueryCamera& camera, LocalizerSettings settings,
+            const WarpMethod& method)
+      : session_(session), camera_(camera), settings_(std::move(settings)), method_(method) {}
 
   Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
     auto follower = std::make_unique<WarpFollower>(session_, camera_, settings_, method_);

@@ -12,7 +12,7 @@ namespace milepost::simulator {
 namespace {
 
 Motion motion_of(const Network& network, const RunPlan& run) {
-  return {network.route(run.route)->path, kLaneM, run.motion};
+  return {path_of(network, run), kLaneM, run.motion};
 }
 
 TEST(Motion, SpeedsUpAndBrakesAsAVehicleDoes) {

@@ -51,6 +51,16 @@ Path Path::circle(const cv::Vec2d& centre, double radius_m) {
   return path;
 }
 
+Path Path::reversed() const {
+  Path path;
+  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) {
+    const double heading = piece->heading_rad + piece->curvature_per_m * piece->length_m;
+    path.append(piece->length_m, -piece->curvature_per_m, point_of(*piece, piece->length_m),
+                heading + kPi);
+  }
+  return path;
+}
+
 const Path::Piece& Path::piece_at(double along_m) const {
   const auto after =
       std::upper_bound(pieces_.begin(), pieces_.end(), along_m,

@@ -30,6 +30,8 @@ class Path {
   static Path through(const std::vector<Bend>& bends);
   // Once around, counter-clockwise, from the circle's easternmost point.
   static Path circle(const cv::Vec2d& centre, double radius_m);
+  // The same line from its end to its start.
+  Path reversed() const;
 
   double length_m() const { return pieces_.back().from_m + pieces_.back().length_m; }
   // Before the start and after the end the path goes on as it begins and ends.

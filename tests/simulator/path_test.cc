@@ -56,6 +56,20 @@ TEST(Path, ACircleRunsCounterClockwiseFromItsEasternmostPoint) {
   EXPECT_NEAR(cv::norm(path.position_at({path.length_m() / 4, 0}) - cv::Vec2d(5, 9)), 0, 1e-9);
 }
 
+TEST(Path, ReversedIsTheSameLineInTheOtherDirection) {
+  const Path path = winding();
+  const Path back = path.reversed();
+  ASSERT_NEAR(back.length_m(), path.length_m(), 1e-9);
+  for (double along_m = 0.5; along_m < path.length_m(); along_m += 3.1) {
+    const double back_m = path.length_m() - along_m;
+    const cv::Vec2d apart = back.position_at({back_m, -2}) - path.position_at({along_m, 2});
+    EXPECT_NEAR(cv::norm(apart), 0, 1e-9) << along_m;
+    const double turn = back.heading_rad_at(back_m) - path.heading_rad_at(along_m);
+    EXPECT_NEAR(std::cos(turn), -1, 1e-9) << along_m;
+    EXPECT_NEAR(back.curvature_per_m_at(back_m), -path.curvature_per_m_at(along_m), 1e-9);
+  }
+}
+
 TEST(Path, GoesOnBeforeItsStartAndAfterItsEnd) {
   const Path path = winding();
   EXPECT_NEAR(cv::norm(path.position_at({-5, 0}) - cv::Vec2d(0, -5)), 0, 1e-9);

@@ -143,7 +143,7 @@ Status record(const Town& town, const Lighting& lighting, const RunPlan& run,
     return Error{ErrorCode::io, (folder / drive.images).string(),
                  "cannot be made (" + error.message() + ")", "check the path and the permissions"};
   }
-  const Motion motion(town.network.route(run.route)->path, kLaneM, run.motion);
+  const Motion motion(path_of(town.network, run), kLaneM, run.motion);
   const Traffic traffic(town.network, run);
   const std::vector<Shot> shots = plan_shots(town.network.terrain, motion, run);
   Status status = for_each_in_parallel(shots.size(), threads, progress, [&](std::size_t i) {

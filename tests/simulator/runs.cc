@@ -108,7 +108,26 @@ RunPlan traffic_query(const Leg& leg, double length_m, std::uint64_t seed) {
   return run;
 }
 
+// The same stretch of road, the other way.
+RunPlan back_query(const Leg& leg, double route_m, double length_m, std::uint64_t seed) {
+  RunPlan run = query_run(leg, length_m, seed);
+  run.name = run.route + "-query-back";
+  run.says = "in the opposite direction";
+  run.backwards = true;
+  run.motion.from_m = route_m - std::min(leg.to_m, leg.from_m + length_m);
+  run.motion.to_m = route_m - leg.from_m;
+  run.motion.lateral_m = 0.1;
+  run.motion.wander_m = 0.2;
+  run.light = noon_light();
+  return run;
+}
+
 }  // namespace
+
+Path path_of(const Network& network, const RunPlan& run) {
+  const Path& path = network.route(run.route)->path;
+  return run.backwards ? path.reversed() : path;
+}
 
 std::vector<RunPlan> make_runs(const Network& network, std::uint64_t seed, double length_m) {
   std::vector<RunPlan> runs;
@@ -129,6 +148,13 @@ std::vector<RunPlan> make_runs(const Network& network, std::uint64_t seed, doubl
       if (route == "town-loop") run.has_oncoming = false;  // roundabouts are driven one way
       runs.push_back(std::move(run));
     }
+  }
+  for (const Leg& leg : kLegs) {  // last, for seeds depend on how many there are before
+    const std::string route = leg.route;
+    const Route* driven = network.route(route);
+    if (driven == nullptr || route == "town-loop") continue;  // a roundabout is driven one way
+    runs.push_back(
+        back_query(leg, driven->path.length_m(), length_m, seed * 1000 + runs.size() * 10));
   }
   return runs;
 }

@@ -17,9 +17,10 @@ inline constexpr Camera kPaperCamera{600, 500, 357.5, 400.1, 300, 250};
 struct RunPlan {
   std::string name;
   std::string route;
-  std::string says;  // one line for who chooses
+  bool backwards = false;  // drives the route from its end to its start
+  std::string says;        // one line for who chooses
   Camera camera = kPaperCamera;
-  MotionPlan motion;
+  MotionPlan motion;     // along path_of()
   double spacing_m = 0;  // between frames; 0: frames come by time
   double frame_period_s = 0.2;
   double period_jitter_s = 0;     // standard deviation
@@ -36,6 +37,9 @@ struct RunPlan {
   bool has_odometer = false;  // writes odometry.csv, 10 Hz
   std::uint64_t seed = 1;     // of everything random in the run
 };
+
+// The line that a run drives along. REQUIRES: the network has its route.
+Path path_of(const Network& network, const RunPlan& run);
 
 // All drives of all routes, each route's mapping drive first. `length_m` cuts each route short.
 std::vector<RunPlan> make_runs(const Network& network, std::uint64_t seed, double length_m);

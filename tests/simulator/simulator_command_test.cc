@@ -41,7 +41,7 @@ TEST(SimulatorCommand, WritesADriveOfEachNameAndSaysNothingInAPipe) {
                     " --route street --length-m 10 --seed 7 --camera-px 120 100");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.output, "");
-  for (const char* name : {"street-map", "street-query"}) {
+  for (const char* name : {"street-map", "street-query", "street-query-back"}) {
     const Result<Drive> drive = read_drive(folder / name);
     ASSERT_TRUE(drive.ok()) << drive.error().line();
     EXPECT_EQ(drive->camera.width_px, 120);

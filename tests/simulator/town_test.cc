@@ -18,7 +18,7 @@ TEST(Network, ARouteNeverComesBackToItself) {
     const Network network = make_network(seed);
     for (const RunPlan& run : make_runs(network, seed, 10000)) {
       if (run.spacing_m == 0) continue;
-      const Path& path = network.route(run.route)->path;
+      const Path path = path_of(network, run);
       for (double a = run.motion.from_m; a < run.motion.to_m; a += 2) {
         for (double b = a + 40; b < run.motion.to_m; b += 2) {
           const cv::Vec2d apart = path.position_at({a, kLaneM}) - path.position_at({b, kLaneM});
@@ -32,7 +32,7 @@ TEST(Network, ARouteNeverComesBackToItself) {
 TEST(Network, RoutesStayOnCarriageways) {
   const Network network = make_network(1);
   for (const RunPlan& run : make_runs(network, 1, 10000)) {
-    const Path& path = network.route(run.route)->path;
+    const Path path = path_of(network, run);
     for (double along = run.motion.from_m; along < run.motion.to_m; along += 1) {
       const cv::Vec2d at = path.position_at({along, kLaneM});
       const bool is_on_road =

@@ -14,7 +14,7 @@ constexpr double kGapSwingM = 3.5;
 
 Traffic::Traffic(const Network& network, const RunPlan& run)
     : network_(network),
-      path_(network.route(run.route)->path),
+      path_(path_of(network, run)),
       start_s_(run.motion.start_s),
       seed_(run.seed) {
   cv::RNG random = seeded(run.seed * 31 + 5);
