@@ -34,6 +34,7 @@ def some_page():
         report.figure("8", figures.estimate_histogram(errors_m, statistics.normality_of(errors_m)), "c"),
         report.figure("study", figures.study_figure({"milepost": [(1, 2, 3), (2, 3, 4)]}, "x", x_log=True,
                                                     second_label="y"), "c"),
+        report.figure("honesty", figures.honesty_figure({"whole map": np.abs(errors_m), "starts": 2 * np.abs(errors_m)}), "c"),
     ])
 
 
@@ -66,7 +67,7 @@ class Report(unittest.TestCase):
 
     def test_drawings_are_well_formed_and_names_are_escaped(self):
         drawings = re.findall(r"<svg.*?</svg>", self.page, re.DOTALL)
-        self.assertEqual(len(drawings), 7)
+        self.assertEqual(len(drawings), 8)
         for each in drawings:
             xml.etree.ElementTree.fromstring(each)
         self.assertNotIn("<one>", self.page)

@@ -1,8 +1,6 @@
 """What studies ask the programs to do, and what they make of the answers."""
 import json
-import math
 import pathlib
-import subprocess
 import tempfile
 import types
 import unittest
@@ -10,9 +8,9 @@ from unittest import mock
 
 from laboratory import studies
 from laboratory.pairs import Pair, Place
-from laboratory.runs import ALTER_DRIVE, Calibration, Planner
+from laboratory.runs import Alteration, Planner
 from laboratory.stages import Cache
-from made_up import fixes
+from made_up import fixes, write_drive
 
 METHODS = ["tracklet-regression-kalman", "milepost"]
 PAIR = Pair("p", Place(folder=pathlib.Path("/drives")), "a-map", "a-query")
@@ -20,14 +18,6 @@ PAIR = Pair("p", Place(folder=pathlib.Path("/drives")), "a-map", "a-query")
 
 def words_of(stage):
     return [str(word) for word in stage.words(pathlib.Path("/out"), 1)]
-
-
-def write_drive(folder):
-    (folder / "frames").mkdir(parents=True)
-    (folder / "frames/0.jpg").write_bytes(b"image")
-    (folder / "trajectory.csv").write_text("filename\n0.jpg\n")
-    (folder / "drive.json").write_text(json.dumps({
-        "name": "a", "camera": {"width_px": 600, "focal_px": [400.0, 200.0], "principal_px": [300.0, 250.0]}}))
 
 
 class Plans(unittest.TestCase):
@@ -57,35 +47,18 @@ class Plans(unittest.TestCase):
         self.assertEqual(drives["yaw 2°"], "/results/alter/drive")
         altered = {name: words_of(run.evaluation.needs[1])[-2:] for name, run in planned.items()
                    if name != "as recorded"}
-        self.assertEqual(altered, {"focal -5 %": ["0.95", "0"], "focal +5 %": ["1.05", "0"], "yaw 2°": ["1", "2"]})
+        self.assertEqual(altered, {
+            "focal -5 %": ["--focal-factor", "0.95"], "focal +5 %": ["--focal-factor", "1.05"], "yaw 2°": ["--yaw-deg", "2"]})
 
     def test_an_altered_drive_is_a_stage_that_needs_no_program_of_milepost(self):
         with tempfile.TemporaryDirectory() as temporary:
             folder = pathlib.Path(temporary)
             write_drive(folder / "query")
-            stage = Planner(METHODS).alter(Place(folder=folder), "query", Calibration("x", focal_factor=1.05))
+            stage = Planner(METHODS).alter(Place(folder=folder), "query", Alteration("x", ("--focal-factor", "1.05")))
             with Cache(folder / "cache", 1).opened() as cache:
                 cache.run([stage])
             camera = json.loads((stage.result / "drive/drive.json").read_text())["camera"]
             self.assertEqual(camera["focal_px"], [420, 210])
-
-
-class AlteredDrive(unittest.TestCase):
-    def test_only_the_camera_is_another(self):
-        with tempfile.TemporaryDirectory() as temporary:
-            folder = pathlib.Path(temporary)
-            write_drive(folder / "query")
-            before = (folder / "query/drive.json").read_text()
-            subprocess.run([ALTER_DRIVE, folder / "query", folder / "out", "1", "2"], check=True)
-            description = json.loads((folder / "out/drive.json").read_text())
-            self.assertEqual(description["name"], "a")
-            self.assertEqual(description["camera"]["focal_px"], [400, 200])
-            x_px, y_px = description["camera"]["principal_px"]
-            self.assertAlmostEqual(x_px, 300 + 400 * math.tan(math.radians(2)))
-            self.assertEqual(y_px, 250)
-            self.assertEqual((folder / "out/frames/0.jpg").read_bytes(), b"image")
-            self.assertEqual((folder / "out/trajectory.csv").read_text(), "filename\n0.jpg\n")
-            self.assertEqual((folder / "query/drive.json").read_text(), before)
 
 
 class Outcomes(unittest.TestCase):
@@ -93,8 +66,8 @@ class Outcomes(unittest.TestCase):
         """`of_value`: {value of the study: PairFixes}."""
         runs = {value: [types.SimpleNamespace(pair=PAIR, map_file="m", found=found)]
                 for value, found in of_value.items()}
-        with mock.patch.object(studies, "read_run", lambda run, drive: run.found):
-            return studies.outcome(studies.STUDIES[name], runs, lambda pair: None)
+        with mock.patch.object(studies, "read_run", lambda run: run.found):
+            return studies.outcome(studies.STUDIES[name], runs)
 
     def test_size_draws_along_and_lateral_against_the_size_that_came_out(self):
         outcome = self.outcome("size", {

@@ -52,10 +52,10 @@ class FromFiles(unittest.TestCase):
         (self.folder / "summary.json").write_text(json.dumps([{"method": "m", "map_kb_per_m": 2.5}]))
         stage = types.SimpleNamespace(result=self.folder)
         self.run_ = types.SimpleNamespace(pair=types.SimpleNamespace(name="p"), map_stage=stage, evaluation=stage,
-                                          map_file=self.folder / "drive.map")
+                                          map_file=self.folder / "drive.map", query_drive=self.folder)
 
     def test_errors_offsets_and_sizes(self):
-        (read,) = read_run(self.run_, self.folder)
+        (read,) = read_run(self.run_)
         np.testing.assert_allclose(read.error_m, [0.5, -0.3, math.nan])
         np.testing.assert_allclose(read.lateral_m, [1.5, -2, math.nan], atol=1e-3)
         np.testing.assert_allclose(read.lateral_error_m, [0.1, math.nan, math.nan])

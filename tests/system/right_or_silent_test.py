@@ -3,62 +3,19 @@
 A fix is confidently wrong that is off by more than a metre and five of its own sigmas, in plan. The recordings
 are skipped, saying so, where they are missing: they cannot be part of the project.
 """
-import csv
 import json
 import math
-import os
 import pathlib
-import shutil
 import unittest
 
-from PIL import Image, ImageFilter
-
 import commands
-from commands import CLIENT, CommandTest, SHARED, STREET, run
+from commands import CLIENT, CommandTest, SHARED, STREET, rows_of, run
 
+ALTER_DRIVE = pathlib.Path(__file__).parents[1] / "lab/laboratory/altered_drive.py"
 PARTS = ((0.3, 0.7), (0.1, 0.5))  # of a mapping drive's frames
 METRES_OF_A_DEGREE = 111_200  # of latitude
-SPOILT = {
-    "plain": None,
-    "soft": lambda image: image.filter(ImageFilter.GaussianBlur(1.5)),
-    "dark": lambda image: image.point(lambda value: value // 3),
-}
+SPOILT = ("plain", "soft", "dark")
 
-
-def rows_of(file):
-    with open(file, newline="", encoding="utf-8") as table:
-        return list(csv.DictReader(table))
-
-
-def write_rows(file, rows):
-    with open(file, "w", newline="", encoding="utf-8") as table:
-        writer = csv.DictWriter(table, rows[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-
-
-def part_of(drive, folder, part):
-    """The drive with a part of its frames."""
-    folder.mkdir(parents=True)
-    description = json.loads((drive / "drive.json").read_text(encoding="utf-8"))
-    os.symlink(drive / "frames", folder / "frames")
-    (folder / "drive.json").write_text(json.dumps({**description, "name": "part"}), encoding="utf-8")
-    rows = rows_of(drive / "trajectory.csv")
-    write_rows(folder / "trajectory.csv", rows[int(part[0] * len(rows)):int(part[1] * len(rows))])
-    return folder
-
-
-def spoilt(drive, folder, change):
-    """The drive with other images."""
-    if change is None:
-        return drive
-    (folder / "frames").mkdir(parents=True)
-    for name in ("drive.json", "trajectory.csv", "gps.csv"):
-        shutil.copy(drive / name, folder)
-    for row in rows_of(drive / "trajectory.csv"):
-        with Image.open(drive / "frames" / row["filename"]) as image:
-            change(image.convert("L")).save(folder / "frames" / row["filename"], quality=90)
-    return folder
 
 
 def off_m(fix, truth, origin):
@@ -70,18 +27,24 @@ def off_m(fix, truth, origin):
 
 
 class RightOrSilent(CommandTest):
+    def altered(self, drive, name, *words):
+        folder = self.folder / name
+        self.expect_done(run(ALTER_DRIVE, drive, folder, *words))
+        return folder
+
     def drive_on_parts(self, map_drive, queries, kinds, tolerance_m):
         """How many fixes there were, on maps of the parts; none confidently wrong, most of them tracked."""
         fixes = 0
         for part in PARTS:
             name = f"{map_drive.name}-{part[0]:.0%}"
-            mapped = part_of(map_drive, self.folder / name, part)
+            mapped = self.altered(map_drive, name, "--part", *part)
             map_file = self.folder / f"{name}.map"
             self.expect_done(self.build(mapped, map_file))
             line = [(float(row["east_m"]), float(row["north_m"])) for row in rows_of(mapped / "trajectory.csv")]
             for query in queries:
                 for kind in kinds:
-                    drive = spoilt(query, self.folder / f"{query.name}-{name}-{kind}", SPOILT[kind])
+                    drive = query if kind == "plain" else self.altered(
+                        query, f"{query.name}-{name}-{kind}", "--spoil", kind)
                     fixes += self.drive_on_part(map_file, line, drive, f"{query.name} on {name}, {kind}", tolerance_m)
         return fixes
 
@@ -108,6 +71,16 @@ class RightOrSilent(CommandTest):
         self.assertGreaterEqual(tracked, 0.7 * on_map, what)
         self.assertNotIn("tracking", beyond, what)
         return located
+
+    def test_in_the_opposite_direction_nothing_is_claimed(self):
+        map_file, out = self.folder / "street.map", self.folder / "fixes.csv"
+        self.expect_done(self.build(STREET / "street-map", map_file))
+        self.expect_done(run(CLIENT, "localize", "--map", map_file, "--drive", STREET / "street-query-back", "--out", out))
+        fixes = rows_of(out)
+        self.assertGreater(len(fixes), 20)
+        for fix in fixes:
+            self.assertNotEqual(fix["status"], "tracking", fix)
+            self.assertGreater(float(fix["sigma_m"] or "inf"), 1, fix)
 
     def test_a_street_of_which_a_part_is_mapped(self):
         self.assertGreater(self.drive_on_parts(STREET / "street-map", [STREET / "street-query"], ["plain"], 0), 10)

@@ -12,7 +12,7 @@ from .errors import LabError, WrongCall
 from .pairs import read_pairs
 from .runs import PROJECT, chosen_methods
 
-STUDIES = ("features", "tracklets", "spacing", "size", "calibration-error", "lateral")
+STUDIES = ("features", "tracklets", "spacing", "size", "calibration-error", "lateral", "honesty", "evidence")
 
 DESCRIPTION = """\
 Measures every method of milepost on a list of map and query drives, and sets the tracklet paper's figures beside

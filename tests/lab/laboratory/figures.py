@@ -200,6 +200,46 @@ def study_figure(points, x_label, x_log=False, second_label=None, x_ticks=()):
     return drawn(1, 2 if second_label else 1, 2.9, draw)
 
 
+def honesty_figure(sigmas_of_group):
+    """`sigmas_of_group`: of each group of fixes their errors in sigmas."""
+    colours = [STAND_INS[name] for name in ("m0", "m1", "m2", "m3", "m4", "m6")]
+
+    def draw(axes):
+        axis = axes[0, 0]
+        for index, (group, sigmas) in enumerate(sigmas_of_group.items()):
+            ordered = np.sort(sigmas)
+            beyond = 100 * (1 - np.arange(1, len(ordered) + 1) / len(ordered))
+            axis.step(np.r_[0, ordered], np.r_[100, beyond], where="post", color=colours[index % len(colours)],
+                      label=f"{group}, {len(ordered)} fixes")
+        grid = np.linspace(0, 6, 121)
+        axis.plot(grid, 200 * stats.norm.sf(grid), color=MUTED, linestyle=(0, (5, 1.5)), label="normal")
+        logarithmic(axis, "y")
+        axis.set_xlim(0, 6)
+        axis.set_ylim(0.01, 100)
+        axis.set_xlabel("error in sigmas")
+        axis.set_ylabel("fixes beyond (%)")
+        axis.legend(loc="upper right")
+
+    return drawn(1, 1, 3.2, draw)
+
+
+def evidence_figure(here, elsewhere):
+    """Log Bayes factors of places where frames were taken, and of others."""
+    def draw(axes):
+        axis = axes[0, 0]
+        bins = np.linspace(-40, 40, 81)
+        for logs, name, label in ((elsewhere, "m1", "elsewhere"), (here, "m0", "where the frame was taken")):
+            counts = np.histogram(np.clip(logs, bins[0], bins[-1]), bins)[0]
+            axis.bar(bins[:-1], 100 * counts / max(1, len(logs)), np.diff(bins), align="edge", color=STAND_INS[name],
+                     alpha=0.55, linewidth=0, label=f"{label}, {len(logs)} places")
+        axis.axvline(0, color=MUTED, linewidth=1)
+        axis.set_xlabel("logarithm of the Bayes factor (beyond 40: at the edge)")
+        axis.set_ylabel("places (%)")
+        axis.legend(loc="upper right")
+
+    return drawn(1, 1, 2.9, draw)
+
+
 def means_beside_paper(fixes):
     """Mean error of each method, and the paper's where it has one."""
     methods = [method for method in methods_of(fixes) if method != paper.UNAVERAGED]

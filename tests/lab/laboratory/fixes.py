@@ -52,10 +52,10 @@ def column(rows, name):
     return np.array([float(row[name]) if row[name] else np.nan for row in rows])
 
 
-def read_run(run, query_drive):
+def read_run(run):
     """A list of PairFixes, one a method, from a run whose stages are done."""
     roads = read_roads(run.map_file)
-    positions = read_positions(query_drive)
+    positions = read_positions(run.query_drive)
     folder = run.evaluation.result
     summaries = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     return [read_method(run, folder, summary, roads, positions) for summary in summaries]

@@ -6,7 +6,7 @@ import pathlib
 import numpy as np
 
 from . import claims as paper_claims
-from . import figures, paper, report, results, statistics, studies, tables
+from . import evidence, figures, honesty, paper, report, results, statistics, studies, tables
 from .fixes import column, read_estimates, read_regressions, read_run
 from .regressions import regression_table, samples_of
 from .road import read_roads
@@ -29,24 +29,32 @@ class Laboratory:
         self.methods = methods
         self.study_names = study_names
         self.planner = Planner(methods)
-        self.runs = [self.planner.run(pair, estimates=True) for pair in pairs]
-        self.study_runs = {study: studies.plan(studies.STUDIES[study], self.planner, study_pairs(pairs), methods)
+        ahead = [pair for pair in pairs if honesty.REVERSED not in pair.tags]
+        self.runs = [self.planner.run(pair, estimates=True) for pair in ahead]
+        self.study_runs = {study: studies.plan(studies.STUDIES[study], self.planner, study_pairs(ahead), methods)
                            for study in study_names if study in studies.STUDIES}
+        self.honesty_runs = honesty.plan(self.planner, pairs, methods) if "honesty" in study_names else {}
+        self.evidence_runs = evidence.plan(self.planner, ahead) if "evidence" in study_names else {}
 
     def measure(self, cache):
         """Runs all stages, then reads and counts."""
-        cache.run(run.evaluation for run in [*self.runs, *(run for by_value in self.study_runs.values()
-                                                          for runs in by_value.values() for run in runs)])
-        self.fixes = [fixes for run in self.runs for fixes in read_run(run, self.query_drive(run.pair))]
+        cache.run(run.evaluation for run in [*self.runs, *(
+            run for by_value in [*self.study_runs.values(), self.honesty_runs, self.evidence_runs]
+            for runs in by_value.values() for run in runs)])
+        self.fixes = [fixes for run in self.runs for fixes in read_run(run)]
         self.estimates = {method: errors for method in self.methods
                           if len(errors := self.estimate_errors(method))}
         self.normality = {method: statistics.normality_of(errors) for method, errors in self.estimates.items()}
         self.samples_from, self.samples = next(
             ((run.pair.name, samples_of(rows)) for run in self.runs if (rows := read_regressions(run))), ("", []))
-        self.studies = [studies.outcome(studies.STUDIES[study], runs, self.query_drive)
+        self.studies = [studies.outcome(studies.STUDIES[study], runs)
                         for study, runs in self.study_runs.items()]
         if "lateral" in self.study_names:
             self.studies.append(studies.lateral_outcome(self.shown()))
+        if self.honesty_runs:
+            self.studies.append(honesty.outcome(self.honesty_runs))
+        if self.evidence_runs:
+            self.studies.append(evidence.outcome(self.evidence_runs))
         self.claims = paper_claims.claims_of(self.fixes, self.normality.get("tracklet-regression"))
         self.tables = [tables.table_1(self.fixes), tables.table_2(self.fixes), tables.calibration_table(self.fixes)]
         self.precision = tables.precision_table(self.fixes)
@@ -56,9 +64,6 @@ class Laboratory:
     def shown(self):
         """Without the variant that only a claim needs."""
         return [each for each in self.fixes if each.method != paper.UNAVERAGED]
-
-    def query_drive(self, pair):
-        return self.planner.drive_folder(pair.place, pair.query_drive)
 
     def estimate_errors(self, method):
         """Per-tracklet errors in metres, of all pairs together."""
@@ -73,7 +78,7 @@ class Laboratory:
         by_pair = tables.table_1_by_pair(self.fixes)
         more = [regression_table(self.samples)] if self.samples else []
         for table in [*self.tables, *more, by_pair, self.precision, self.latency(),
-                      tables.precision_latency_table(self.fixes), *(study.table for study in self.studies)]:
+                      tables.precision_latency_table(self.fixes), *(table for study in self.studies for table in (study.table, study.more) if table)]:
             (out / f"{table.name}.txt").write_text(table.as_text(), encoding="utf-8")
             (out / f"{table.name}.csv").write_text(table.as_csv(), encoding="utf-8")
         (out / "claims.txt").write_text(self.claims_text(), encoding="utf-8")

@@ -54,10 +54,11 @@ class LocalFrame:
 class Road:
     """One segment of a map."""
 
-    def __init__(self, along_m, east_north_m, frame=None):
+    def __init__(self, along_m, east_north_m, frame=None, altitude_m=0.0):
         self.along_m = np.asarray(along_m, float)  # increasing, one a vertex
         self.east_north_m = np.asarray(east_north_m, float)
         self.frame = frame  # that east and north are of
+        self.altitude_m = altitude_m  # of the frame's origin
 
     @property
     def length_m(self):
@@ -70,6 +71,10 @@ class Road:
 
     def at(self, along_m):
         return np.stack([np.interp(along_m, self.along_m, self.east_north_m[:, axis]) for axis in (0, 1)], axis=-1)
+
+    def has_begun_at(self, east_north_m):
+        """Whether each position near the line lies after its first vertex."""
+        return (east_north_m - self.east_north_m[0]) @ (self.east_north_m[1] - self.east_north_m[0]) >= 0
 
     def curvature_per_m(self, along_m, window_m=CURVATURE_WINDOW_M):
         """Of the circle through the points half a window before, at, and half a window after; left is positive.
@@ -111,7 +116,8 @@ def read_roads(map_file):
     for segment in dict.fromkeys(row[0] for row in rows):
         along_m, *geodetic = np.array([row[1:] for row in rows if row[0] == segment], float).T
         frame = LocalFrame(*(values[0] for values in geodetic))
-        roads[segment] = Road(along_m, frame.from_earth(earth_centred(*geodetic))[:, :2], frame)
+        roads[segment] = Road(along_m, frame.from_earth(earth_centred(*geodetic))[:, :2], frame,
+                              geodetic[2][0])
     return roads
 
 

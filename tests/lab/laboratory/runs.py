@@ -4,13 +4,16 @@ import os
 import pathlib
 import re
 import subprocess
+import typing
 
 from .errors import LabError, WrongCall
 from .stages import Stage
 
 PROJECT = pathlib.Path(__file__).resolve().parents[3]
 ALTER_DRIVE = pathlib.Path(__file__).with_name("altered_drive.py")
-BUILT = {"milepost-mapper": "mapper", "milepost-client": "client", "milepost-simulator": "tests/simulator"}
+STARTS = pathlib.Path(__file__).with_name("starts.py")
+BUILT = {"milepost-mapper": "mapper", "milepost-client": "client", "milepost-simulator": "tests/simulator",
+         "milepost-sightings": "tests/lab"}
 
 
 def program(name):
@@ -51,32 +54,33 @@ def name_with(name, settings):
 
 
 @dataclasses.dataclass(frozen=True)
-class Calibration:
-    """What a query drive says of its camera, against what was recorded."""
+class Alteration:
+    """What is altered in a drive: words of altered_drive.py, and another drive below a place for its --onto."""
 
     name: str
-    focal_factor: float = 1
-    yaw_deg: float = 0
-
-    @property
-    def as_recorded(self):
-        return self.focal_factor == 1 and self.yaw_deg == 0
+    words: tuple[str, ...] = ()
+    onto: tuple | None = None  # (Place, path)
 
 
-AS_RECORDED = Calibration("as recorded")
+AS_RECORDED = Alteration("as recorded")
 
 
 @dataclasses.dataclass
 class Run:
-    """A pair's evaluation with one setting of the mapper and one calibration of the query's camera."""
+    """A pair's evaluation with one setting of the mapper and drives that are altered in one way."""
 
     pair: object
     map_stage: Stage
     evaluation: Stage
+    find_query: typing.Callable  # the folder of the query drive, once its stages are done
 
     @property
     def map_file(self):
         return self.map_stage.result / "drive.map"
+
+    @property
+    def query_drive(self):
+        return self.find_query()
 
 
 class Planner:
@@ -87,61 +91,85 @@ class Planner:
         self.estimates = ("--estimates",) if "--estimates" in help_of("evaluate") else ()
         self.planned = {}
 
-    def run(self, pair, mapper_settings=(), methods=None, estimates=False, calibration=AS_RECORDED):
-        """`mapper_settings` are words of `milepost-mapper build`; `methods` are the planner's by default."""
-        mapping = self.map(pair, tuple(mapper_settings))
-        evaluation = self.evaluate(pair, name_with(pair.name, mapper_settings), mapping,
-                                   tuple(methods or self.methods), self.estimates if estimates else (), calibration)
-        return Run(pair, mapping, evaluation)
+    def run(self, pair, mapper_settings=(), methods=None, estimates=False, query=AS_RECORDED, map_drive=AS_RECORDED,
+            map_of=None, starts=False, sightings=0):
+        """`mapper_settings` are words of `milepost-mapper build`; `methods` are the planner's by default. `map_of`:
+        another pair, whose map it is. `starts`: the query is driven in pieces, as starts.py says. `sightings`: not driven
+        at all, but one frame in so many is looked with everywhere on the map."""
+        mapping = self.map(map_of or pair, tuple(mapper_settings), map_drive)
+        needs, find_query = self.drive(pair.place, pair.query_drive, query)
+        name = name_with(pair.name, mapper_settings)
+        chosen = tuple(methods or self.methods)
+        if sightings:
+            evaluation = self.sightings(pair, name, mapping, sightings, needs, find_query)
+        elif starts:
+            evaluation = self.starts(pair, name, mapping, chosen, needs, find_query)
+        else:
+            evaluation = self.evaluate(pair, name, mapping, chosen, self.estimates if estimates else (), needs, find_query)
+        return Run(pair, mapping, evaluation, find_query)
 
     def simulate(self, place):
         return self.once(("simulate", place), lambda: Stage(
             "simulate", "drives", program("milepost-simulator"), place.simulate,
             lambda out, threads: ["--out", out, "--threads", threads, *place.simulate]))
 
-    def map(self, pair, settings):
+    def map(self, pair, settings, alteration=AS_RECORDED):
+        needs, drive = self.drive(pair.place, pair.map_drive, alteration)
+
         def plan():
-            needs, drive = self.drive(pair.place, pair.map_drive)
             return Stage(
                 "map", name_with(pathlib.PurePath(pair.map_drive).name, settings), program("milepost-mapper"), settings,
                 lambda out, threads: ["build", "--drive", drive(), "--map", out / "drive.map", "--lab",
                                       "--jobs", threads, *settings],
                 lambda: [drive()], needs)
-        return self.once(("map", pair.place, pair.map_drive, settings), plan)
+        return self.once(("map", pair.place, pair.map_drive, settings, alteration), plan)
 
-    def alter(self, place, path, calibration):
-        settings = (str(calibration.focal_factor), str(calibration.yaw_deg))
+    def alter(self, place, path, alteration):
+        needs, drive = self.drive(place, path)
+        more_needs, onto = self.drive(*alteration.onto) if alteration.onto else ((), None)
 
         def plan():
-            needs, drive = self.drive(place, path)
             return Stage(
-                "alter", name_with(pathlib.PurePath(path).name, settings), ALTER_DRIVE, settings,
-                lambda out, threads: [drive(), out / "drive", *settings], lambda: [drive()], needs)
-        return self.once(("alter", place, path, settings), plan)
+                "alter", name_with(pathlib.PurePath(path).name, alteration.words), ALTER_DRIVE, alteration.words,
+                lambda out, threads: [drive(), out / "drive", *alteration.words, *(["--onto", onto()] if onto else [])],
+                lambda: [drive(), *([onto()] if onto else [])], (*needs, *more_needs))
+        return self.once(("alter", place, path, alteration), plan)
 
-    def evaluate(self, pair, name, mapping, methods, flags, calibration):
+    def evaluate(self, pair, name, mapping, methods, flags, needs, drive):
         def plan():
-            needs, drive = self.drive(pair.place, pair.query_drive, calibration)
             return Stage(
                 "evaluate", name, program("milepost-client"), (*methods, *flags),
                 lambda out, threads: ["evaluate", "--map", mapping.result / "drive.map", "--drive", drive(),
                                       "--out", out, *flags, "--method", *methods],
                 lambda: [mapping.result / "drive.map", drive()], (mapping, *needs))
-        return self.once(("evaluate", pair, mapping, methods, flags, calibration), plan)
+        return self.once(("evaluate", pair, mapping, methods, flags, needs), plan)
 
-    def drive(self, place, path, calibration=AS_RECORDED):
+    def sightings(self, pair, name, mapping, every, needs, drive):
+        def plan():
+            return Stage(
+                "sightings", name, program("milepost-sightings"), (str(every),),
+                lambda out, threads: [mapping.result / "drive.map", drive(), every, out / "sightings.csv"],
+                lambda: [mapping.result / "drive.map", drive()], (mapping, *needs))
+        return self.once(("sightings", pair, mapping, every, needs), plan)
+
+    def starts(self, pair, name, mapping, methods, needs, drive):
+        def plan():
+            client = program("milepost-client")
+            return Stage(
+                "starts", name, STARTS, methods,
+                lambda out, threads: [client, mapping.result / "drive.map", drive(), out, *methods],
+                lambda: [client, mapping.result / "drive.map", drive(), ALTER_DRIVE], (mapping, *needs))
+        return self.once(("starts", pair, mapping, methods, needs), plan)
+
+    def drive(self, place, path, alteration=AS_RECORDED):
         """What has to be done before the drive is there, and a function that says where it is then."""
-        if not calibration.as_recorded:
-            alteration = self.alter(place, path, calibration)
-            return (alteration,), lambda: alteration.result / "drive"
+        if alteration != AS_RECORDED:
+            stage = self.alter(place, path, alteration)
+            return (stage,), lambda: stage.result / "drive"
         if place.folder:
             return (), lambda: place.folder / path
         simulation = self.simulate(place)
         return (simulation,), lambda: simulation.result / path
-
-    def drive_folder(self, place, path):
-        """Where the drive is, once its stages have been run."""
-        return self.drive(place, path)[1]()
 
     def once(self, key, plan):
         if key not in self.planned:

@@ -9,27 +9,27 @@ import numpy as np
 from . import figures, paper, statistics
 from .fixes import read_run
 from .road import read_roads, tracklets_per_m
-from .runs import AS_RECORDED, Calibration
+from .runs import AS_RECORDED, Alteration
 from .tables import Table, methods_of, of_method
 
 METHODS = ("tracklet-matching", "tracklet-regression", "tracklet-regression-kalman", "inverse-scale", "milepost")
 LATERAL_EDGES_M = (0, 0.25, 0.5, 1, 2, 3, 4)
 LEAST_FRAMES = 10  # of a point that is drawn
-CALIBRATIONS = (AS_RECORDED, Calibration("focal -5 %", focal_factor=0.95), Calibration("focal +5 %", focal_factor=1.05),
-                Calibration("yaw 2°", yaw_deg=2))
+CALIBRATIONS = (AS_RECORDED, Alteration("focal -5 %", ("--focal-factor", "0.95")),
+                Alteration("focal +5 %", ("--focal-factor", "1.05")), Alteration("yaw 2°", ("--yaw-deg", "2")))
 SIZE, LATERAL = "map (kB/m)", "mean lateral error (m)"  # what a study's second plot shows
 
 
 @dataclasses.dataclass(frozen=True)
 class Study:
     """One thing at several values: an option of milepost-mapper build, whose map stores what the client must follow, or
-    the calibration of the query's camera."""
+    an alteration of the query drive."""
 
     name: str
     title: str
     caption: str
     option: str  # of the mapper, or what the values are
-    values: tuple  # numbers, or Calibrations
+    values: tuple  # numbers, or Alterations
     default: float | None  # of the mapper: needs no map of its own
     x_label: str
     measure: typing.Callable  # (value, map files, PairFixes of a method) -> x
@@ -53,6 +53,7 @@ class Outcome:
     table: Table
     figure: str
     points: dict
+    more: Table | None = None  # goes into files only
 
 
 def mean_over_length(map_files, of_map):
@@ -99,15 +100,15 @@ def plan(study, planner, pairs, methods):
     chosen = [method for method in study.methods if method in methods] or list(methods)
 
     def run(pair, value):
-        if isinstance(value, Calibration):
-            return planner.run(pair, (), chosen, calibration=value)
+        if isinstance(value, Alteration):
+            return planner.run(pair, (), chosen, query=value)
         return planner.run(pair, () if value == study.default else (study.option, str(value)), chosen)
 
     return {value: [run(pair, value) for pair in pairs] for value in study.values}
 
 
-def outcome(study, runs, query_drive):
-    """`runs`: {value: runs that are done}; `query_drive(pair)`: the drive's folder."""
+def outcome(study, runs):
+    """`runs`: {value: runs that are done}."""
     table = Table(
         f"study-{study.name}", study.title, study.caption + " Pairs: " +
         ", ".join(run.pair.name for run in next(iter(runs.values()))) + ".",
@@ -116,7 +117,7 @@ def outcome(study, runs, query_drive):
          ("heading mean", "°", 2), ("map", "kB/m", 2), ("localized", "", 0), ("frames", "", 0)], groups=1)
     points = {}
     for value, runs_of_value in runs.items():
-        fixes = [fixes for run in runs_of_value for fixes in read_run(run, query_drive(run.pair))]
+        fixes = [fixes for run in runs_of_value for fixes in read_run(run)]
         map_files = list(dict.fromkeys(run.map_file for run in runs_of_value))
         for method in methods_of(fixes):
             here = of_method(fixes, method)
@@ -135,7 +136,7 @@ def outcome(study, runs, query_drive):
 
 
 def name_of(value):
-    return value.name if isinstance(value, Calibration) else f"{value:g}"
+    return value.name if isinstance(value, Alteration) else f"{value:g}"
 
 
 def lateral_outcome(fixes):
