@@ -10,7 +10,6 @@ namespace milepost {
 namespace {
 
 constexpr int kFar = std::numeric_limits<int>::max();
-constexpr double kNearestM = 0.5;
 
 bool mapped_in(const PlacedLandmark& landmark, const AlongRange& region, double margin_m) {
   return landmark.along.widened(margin_m).meets(region);
@@ -64,7 +63,7 @@ std::optional<ExpectedSight> expected_sight(const PlacedLandmark& landmark,
   const Pinhole camera = belief.camera(given);
   const Eigen::Matrix3d rotation = camera_from_enu(pose);
   const Eigen::Vector3d seen = rotation * (landmark.enu_m - pose.enu_m);
-  if (!(seen.z() > kNearestM)) return std::nullopt;
+  if (!(seen.z() > kNearestSeenM)) return std::nullopt;
   ExpectedSight expected;
   expected.pixel = camera.pixel_of(seen);
   expected.scale_px = landmark.size_m * camera.focal_px() / seen.z();

@@ -5,8 +5,7 @@
 #include <limits>
 #include <variant>
 
-#include "client/localize/follower.h"
-#include "client/localize/segment_session.h"
+#include "client/localize/place.h"
 
 namespace milepost {
 namespace {
@@ -14,40 +13,9 @@ namespace {
 constexpr double kMaxStartTurnDeg = 60;    // between a heading that is known and a segment's
 constexpr double kMaxOdometryAgeS = 0.5;   // at a start
 constexpr std::size_t kMaxCandidates = 4;  // segments searched
-constexpr double kEndMarginM = 5;          // the vehicle may be so far beyond a segment's ends
-constexpr double kSamePlaceM = 4;          // two beliefs so near to each other are one
-constexpr double kMinLogOdds = -4;         // below which a place is not pursued
 constexpr double kElsewhereM = 5;          // how far off elsewhere is at least ...
 constexpr double kUnknownM = 30;           // ... and where no receiver tells
 constexpr double kDoubt = -1;              // a frame that says less leaves the place in doubt
-
-// A segment that is looked at.
-struct OpenSegment {
-  SegmentSession session;
-  std::unique_ptr<Scout> scout;
-};
-
-// One place where the camera may be, with the odds that it is, against elsewhere.
-struct Place {
-  std::shared_ptr<OpenSegment> segment;
-  std::unique_ptr<Follower> follower;
-  PlaceOdds odds;
-  ReceiverEvidence receiver;
-  double timestamp_s = 0;       // of the last frame
-  bool measured = false;        // ... was it
-  double log_bayes_factor = 0;  // ... what did it say
-  int matches = 0;
-  bool weighed = false;  // ... is that part of the odds
-
-  const SegmentSession& session() const { return segment->session; }
-  GeoPoint position() const {
-    const TrackedPosition at = follower->position();
-    return at.across ? at.across->position : session().line.point_at(at.along_m);
-  }
-  bool is_on_segment(double along_m) const {
-    return along_m >= -kEndMarginM && along_m <= session().line.length_m() + kEndMarginM;
-  }
-};
 
 // No place is claimed: those that may be it are weighed against each other and elsewhere.
 struct Searching {
@@ -103,13 +71,11 @@ struct Localizer::Impl {
   Result<Fix> search(SeenFrame& frame);
   Result<Fix> follow(SeenFrame& frame);
 
-  bool is_fresh(const std::optional<CoarsePosition>& position, double timestamp_s) const;
+  std::optional<CoarsePosition> fresh(const std::optional<CoarsePosition>& position,
+                                      double timestamp_s) const;
   Result<double> scout(SeenFrame& frame, const CoarsePosition& around, Searching& searching);
   Result<std::shared_ptr<OpenSegment>> opened(const NearbySegment& where);
-  Followed advance(Place& place, SeenFrame& frame) const;
   void carry(Searching& searching, SeenFrame& frame);
-  void weigh(Place& place, double best, double timestamp_s) const;
-  void weigh(std::vector<Place>& places, double timestamp_s) const;
   Fix weighed(Searching& searching, double timestamp_s);
   void claim(Place place);
   void prefetch_ahead(const Place& place);
@@ -131,47 +97,6 @@ bool leads_ahead(const RouteLine& line, double along_m, const CoarsePosition& ve
   if (!vehicle.heading_deg) return true;
   const double turn_deg = *vehicle.heading_deg - line.heading_deg_at(along_m);
   return std::abs(std::remainder(turn_deg, 360)) <= kMaxStartTurnDeg;
-}
-
-// What the motion since a place was left over the end of its segment says for another place on it:
-// the map may look there as beyond its end. Up to kUsualSigmas nothing speaks against it.
-double log_density_after(const Place& left, const Place& place) {
-  constexpr double kUsualSigmas = 2;
-  constexpr double kAccelerationMps2 = 2;
-  const SegmentSession& before = left.session();
-  const SegmentSession& now = place.session();
-  if (before.layer.version != now.layer.version || before.layer.segment != now.layer.segment)
-    return 0;
-  const double since_s = place.timestamp_s - left.timestamp_s;
-  const double off_m =
-      place.follower->position().along_m - left.follower->expected_along_m(place.timestamp_s);
-  const double sigma_m =
-      0.5 + left.follower->position().sigma_m + kAccelerationMps2 * since_s * since_s / 2;
-  const double sigmas = std::max(0.0, std::abs(off_m) / sigma_m - kUsualSigmas);
-  return -sigmas * sigmas / 2;
-}
-
-// Whether two places are the same, as far as they know.
-bool is_same_place(const Place& a, const Place& b) {
-  return a.segment == b.segment &&
-         std::abs(a.follower->position().along_m - b.follower->position().along_m) < kSamePlaceM;
-}
-
-// Of places that are one, the pose that the frame speaks for most, with the odds of the likeliest.
-void merge_same(std::vector<Place>& places) {
-  std::ranges::stable_sort(places, std::greater<>(), &Place::log_bayes_factor);
-  std::vector<Place> merged;
-  for (Place& place : places) {
-    const auto same = std::ranges::find_if(
-        merged, [&](const Place& other) { return is_same_place(place, other); });
-    if (same == merged.end()) {
-      merged.push_back(std::move(place));
-    } else if (place.odds.log() > same->odds.log()) {
-      same->odds = place.odds;
-      same->receiver = place.receiver;
-    }
-  }
-  places = std::move(merged);
 }
 
 }  // namespace
@@ -213,9 +138,12 @@ Result<Fix> Localizer::localize(const QueryFrame& frame) {
                                                          : impl_->search(seen);
 }
 
-bool Localizer::Impl::is_fresh(const std::optional<CoarsePosition>& position,
-                               double timestamp_s) const {
-  return position && timestamp_s - position->timestamp_s <= settings.max_coarse_age_s;
+// The position, unless it is too old to start from or to contradict.
+std::optional<CoarsePosition> Localizer::Impl::fresh(const std::optional<CoarsePosition>& position,
+                                                     double timestamp_s) const {
+  const bool is_fresh =
+      position && timestamp_s - position->timestamp_s <= settings.max_coarse_age_s;
+  return is_fresh ? position : std::nullopt;
 }
 
 Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(const NearbySegment& where) {
@@ -273,24 +201,11 @@ Result<double> Localizer::Impl::scout(SeenFrame& frame, const CoarsePosition& ar
   return near->empty() ? std::numeric_limits<double>::infinity() : near->front().distance_m;
 }
 
-// One frame further.
-Followed Localizer::Impl::advance(Place& place, SeenFrame& frame) const {
-  const double before_m = place.follower->position().along_m;
-  const Followed followed = place.follower->follow(frame);
-  place.timestamp_s = frame.timestamp_s();
-  place.measured = followed.measured;
-  place.matches = followed.matches;
-  place.log_bayes_factor = followed.log_bayes_factor;
-  place.weighed = false;
-  place.odds.move(place.follower->position().along_m - before_m);
-  return followed;
-}
-
 // Advances the places that are not at this frame yet.
 void Localizer::Impl::carry(Searching& searching, SeenFrame& frame) {
   const auto is_over = [&](Place& place) {
     if (place.timestamp_s == frame.timestamp_s()) return false;
-    const Followed followed = advance(place, frame);
+    const Followed followed = place.advance(frame);
     if (followed.failure) noted = followed.failure;
     const bool is_gone = followed.failure && followed.failure->code == ErrorCode::gone;
     const bool has_left = !place.is_on_segment(place.follower->position().along_m);
@@ -303,56 +218,28 @@ void Localizer::Impl::carry(Searching& searching, SeenFrame& frame) {
 Result<Fix> Localizer::Impl::search(SeenFrame& frame) {
   auto& searching = std::get<Searching>(state);
   carry(searching, frame);
-  const bool receiver_knows = is_fresh(coarse, frame.timestamp_s());
-  const auto& around = receiver_knows ? coarse : searching.lost_at;
-  if (is_fresh(around, frame.timestamp_s())) {
+  const std::optional<CoarsePosition> reading = fresh(coarse, frame.timestamp_s());
+  const auto around = reading ? reading : fresh(searching.lost_at, frame.timestamp_s());
+  if (around) {
     const Result<double> nearest_m = scout(frame, *around, searching);
     if (!nearest_m) {
       if (searching.places.empty()) return nearest_m.error();
       noted = nearest_m.error();
-    } else if (receiver_knows &&
-               *nearest_m > settings.start_sigmas * coarse->sigma_m + kEndMarginM) {
+    } else if (reading && *nearest_m > settings.start_sigmas * reading->sigma_m + kEndMarginM) {
       searching.waiting = FixStatus::off_map;
-    } else if (receiver_knows && searching.waiting == FixStatus::off_map && !searching.left) {
+    } else if (reading && searching.waiting == FixStatus::off_map && !searching.left) {
       searching.waiting = FixStatus::initializing;
     }
   }
-  weigh(searching.places, frame.timestamp_s());
+  weigh(searching.places, reading, static_cast<std::size_t>(settings.max_places));
   return weighed(searching, frame.timestamp_s());
-}
-
-// Adds to a place's odds what the frame says, and the receiver.
-void Localizer::Impl::weigh(Place& place, double best, double timestamp_s) const {
-  place.weighed = true;
-  place.odds.add_frame(place.log_bayes_factor, best, place.follower->position().along_m);
-  if (is_fresh(coarse, timestamp_s))
-    place.odds.add(place.receiver.log_bayes_factor(*coarse, place.position(), timestamp_s));
-}
-
-// Weighs the places by this frame, against each other and elsewhere.
-void Localizer::Impl::weigh(std::vector<Place>& places, double timestamp_s) const {
-  merge_same(places);
-  double best = 0;
-  for (const Place& place : places) best = std::max(best, place.log_bayes_factor);
-  for (Place& place : places) {
-    if (!place.weighed) weigh(place, best, timestamp_s);
-  }
-  std::erase_if(places, [](const Place& place) { return place.odds.log() < kMinLogOdds; });
-  std::ranges::stable_sort(places, std::greater<>(),
-                           [](const Place& place) { return place.odds.log(); });
-  const auto most = static_cast<std::size_t>(settings.max_places);
-  if (places.size() > most) places.erase(places.begin() + settings.max_places, places.end());
 }
 
 // The answer while several places may be it.
 Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
   if (searching.places.empty()) return unlocated(timestamp_s, searching.waiting);
   Place& best = searching.places.front();
-  double against = 1;  // elsewhere
-  for (const Place& place : searching.places) {
-    if (&place != &best) against += std::exp(place.odds.log());
-  }
-  const double log_odds = best.odds.log() - std::log(against);
+  const double log_odds = log_odds_of_first(searching.places);
   const bool was_lost = searching.waiting == FixStatus::lost;
   if (log_odds < 0 || (was_lost && !best.measured))
     return unlocated(timestamp_s, searching.waiting);
@@ -381,13 +268,13 @@ Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
     if (elsewhere && elsewhere->along_m) return elsewhere;
     return unlocated(frame.timestamp_s(), FixStatus::off_map);
   }
-  const Followed followed = advance(place, frame);
+  const Followed followed = place.advance(frame);
   if (followed.failure) noted = followed.failure;
   if (followed.failure && followed.failure->code == ErrorCode::gone) {  // rebuilt meanwhile
     state = Searching{FixStatus::lost};
     return search(frame);
   }
-  weigh(place, place.log_bayes_factor, frame.timestamp_s());
+  place.weigh(place.log_bayes_factor, fresh(coarse, frame.timestamp_s()));
   if (place.measured && place.odds.log() >= settings.odds.hold) {
     following.frames_without_measurement = 0;
     prefetch_ahead(place);
@@ -435,9 +322,9 @@ void Localizer::Impl::widen(Fix& fix, double log_odds, const Place& place,
   const GeoPoint here = place.position();
   double weights = 1 + std::exp(log_odds);
   double square_m2 = kUnknownM * kUnknownM;
-  if (is_fresh(coarse, place.timestamp_s)) {
-    const double sigma_m = std::max(kElsewhereM, coarse->sigma_m);
-    square_m2 = sigma_m * sigma_m + std::pow(geodesic_distance_m(here, coarse->position), 2);
+  if (const auto reading = fresh(coarse, place.timestamp_s)) {
+    const double sigma_m = std::max(kElsewhereM, reading->sigma_m);
+    square_m2 = sigma_m * sigma_m + std::pow(geodesic_distance_m(here, reading->position), 2);
   }
   for (const Place& other : places) {
     if (&other == &place) continue;

@@ -10,7 +10,6 @@
 namespace milepost {
 namespace {
 
-constexpr double kNearestM = 0.5;
 constexpr double kCutoffSigmas = PoseSolverSettings().cutoff;  // of residuals that agree
 constexpr double kCellsAcross = 12;  // of the image's width; cells are square
 constexpr double kBorderPx = 8;      // where SIFT finds nothing
@@ -103,7 +102,7 @@ PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const Comp
     const PlacedLandmark& landmark = landmarks[i];
     if (!landmark.along.widened(settings.along_margin_m).contains(along_m)) continue;
     const Eigen::Vector3d seen = rotation * (landmark.enu_m - pose.enu_m);
-    if (!(seen.z() > kNearestM)) continue;
+    if (!(seen.z() > kNearestSeenM)) continue;
     const Eigen::Vector2d pixel = camera.pixel_of(seen);
     if (!is_inside(pixel, image)) continue;
     const double scale_px = landmark.size_m * camera.focal_px() / seen.z();

@@ -8,7 +8,6 @@
 namespace milepost {
 namespace {
 
-constexpr double kNearestM = 0.5;
 constexpr int kPoseStates = kPrincipalY + 1;  // that the image depends on
 
 using PoseRow = Eigen::Matrix<double, 1, kPoseStates>;
@@ -93,7 +92,7 @@ bool PoseSolver::look(const View& view, const LandmarkMatch& match, Seen& at) co
   at.from_camera_m = landmark.enu_m - view.pose.enu_m;
   at.seen_m = view.rotation * at.from_camera_m;
   const double z = at.seen_m.z();
-  if (!(z > kNearestM)) return false;
+  if (!(z > kNearestSeenM)) return false;
   const Pinhole& camera = view.camera;
   at.pixel_by_seen << camera.focal_x_px / z, 0, -camera.focal_x_px * at.seen_m.x() / (z * z), 0,
       camera.focal_y_px / z, -camera.focal_y_px * at.seen_m.y() / (z * z);

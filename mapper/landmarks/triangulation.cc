@@ -37,13 +37,12 @@ struct Normal {
 
 std::optional<Normal> normal_at(const Eigen::Vector3d& enu_m, const PixelTrack& track,
                                 const std::vector<CameraPose>& poses, const Pinhole& camera) {
-  constexpr double kNearestM = 0.5;
   Normal normal;
   for (const Sight& sight : track) {
     const CameraPose& pose = poses[sight.frame];
     const Eigen::Matrix3d rotation = camera_from_enu(pose);
     const Eigen::Vector3d seen = rotation * (enu_m - pose.enu_m);
-    if (!(seen.z() > kNearestM)) return std::nullopt;
+    if (!(seen.z() > kNearestSeenM)) return std::nullopt;
     Jacobian pixel_by_seen;
     pixel_by_seen << camera.focal_x_px / seen.z(), 0,
         -camera.focal_x_px * seen.x() / (seen.z() * seen.z()), 0, camera.focal_y_px / seen.z(),

@@ -71,6 +71,8 @@ typename CameraPoseOf<Scalar>::Vector3 seen_from(
   return camera_from_enu(pose) * (point_enu_m - pose.enu_m);
 }
 
+inline constexpr double kNearestSeenM = 0.5;  // what is nearer to the camera's plane is not seen
+
 // A camera without distortion.
 struct Pinhole {
   double focal_x_px = 0;
