@@ -67,7 +67,7 @@ TEST(PlaceOdds, EvidenceLapsesSoWhatIsLongCertainCanFall) {
   }
   EXPECT_LT(odds.log(), std::log(1 / kSettings.lapse) + kSettings.max_for);
   int frames = 0;
-  while (odds.log() >= kSettings.give_up) {
+  while (odds.log() >= kSettings.give_up && frames < 100) {
     odds.move(kSettings.novel_m);
     odds.add_frame(-10, 0, 0);
     ++frames;

@@ -37,6 +37,9 @@ TEST(ReceiverEvidence, AReadingCountsOnce) {
   ReceiverEvidence evidence(kSettings);
   EXPECT_LT(evidence.log_bayes_factor(reading(30, 10), kPlace, 10), 0);
   EXPECT_EQ(evidence.log_bayes_factor(reading(30, 10), kPlace, 10.1), 0);
+  // Nor when the vehicle has driven on since.
+  const GeoPoint ahead = reading(8, 10.5).position;
+  EXPECT_EQ(evidence.log_bayes_factor(reading(30, 10), ahead, 10.5), 0);
 }
 
 // Its error lasts: two readings within a second are hardly two witnesses.
