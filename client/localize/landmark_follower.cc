@@ -12,6 +12,7 @@
 namespace milepost {
 namespace {
 
+constexpr int kSearchLooks = 3;  // for each landmark in its place, each from a better pose
 constexpr double kMaxOriginDistanceM = 300;  // then the tangent frame is laid anew
 constexpr double kProjectionReachM = 40;     // beyond what was driven since the last sight
 
@@ -124,10 +125,13 @@ std::optional<PoseEstimate> LandmarkFollower::searched(const CompactFrame& frame
   const auto agreed = estimate_by_consensus(solver, before, matches, method_.consensus);
   if (!agreed || static_cast<int>(agreed->agreeing.size()) < search_.min_start_support)
     return std::nullopt;
-  const auto again = match_expected(frame, search_.session->codebook->step(), window_.landmarks(),
-                                    region, agreed->belief, search_.camera, method_.match);
-  PoseEstimate estimate = solver.estimate(before, agreed->belief.mean, again);
-  if (static_cast<int>(estimate.agreeing.size()) < search_.min_start_support) return std::nullopt;
+  PoseEstimate estimate = *agreed;
+  for (int look = 0; look < kSearchLooks; ++look) {
+    const auto again = match_expected(frame, search_.session->codebook->step(), window_.landmarks(),
+                                      region, estimate.belief, search_.camera, method_.match);
+    estimate = solver.estimate(before, estimate.belief.mean, again);
+    if (static_cast<int>(estimate.agreeing.size()) < search_.min_start_support) return std::nullopt;
+  }
   return estimate;
 }
 

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "client/localize/place.h"
+#include "client/localize/second_look.h"
 
 namespace milepost {
 namespace {
@@ -35,6 +36,7 @@ struct Searching {
 struct Following {
   Place place;
   int frames_without_measurement = 0;
+  SecondLook second_look = {};
 };
 
 }  // namespace
@@ -77,6 +79,7 @@ struct Localizer::Impl {
   Result<std::shared_ptr<OpenSegment>> opened(const NearbySegment& where);
   void carry(Searching& searching, SeenFrame& frame);
   Fix weighed(Searching& searching, double timestamp_s);
+  void look_again(Following& following, SeenFrame& frame) const;
   void claim(Place place);
   void prefetch_ahead(const Place& place);
   Fix located(const Place& place, FixStatus status) const;
@@ -243,7 +246,7 @@ Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
   const bool was_lost = searching.waiting == FixStatus::lost;
   if (log_odds < 0 || (was_lost && !best.measured))
     return unlocated(timestamp_s, searching.waiting);
-  if (log_odds < settings.odds.claim || !best.measured) {
+  if (log_odds < settings.odds.claim || !best.measured || best.apart_m > kAgreedM) {
     Fix fix = located(best, FixStatus::initializing);
     widen(fix, best.odds.log(), best, searching.places);
     return fix;
@@ -255,6 +258,17 @@ Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
 void Localizer::Impl::claim(Place place) {
   prefetched_to_m = 0;
   state = Following{std::move(place)};
+}
+
+// Finds the pose anew, where that is due, and compares.
+void Localizer::Impl::look_again(Following& following, SeenFrame& frame) const {
+  Place& place = following.place;
+  const double along_m = place.follower->position().along_m;
+  const bool is_ours = std::holds_alternative<LandmarkMethod>(settings.method.how);
+  if (!is_ours || !following.second_look.is_due(along_m)) return;
+  const AlongRange around = AlongRange{along_m, along_m}.widened(kSamePlaceM);
+  Result<std::vector<Sighting>> seen = place.segment->scout->look(frame, around);
+  if (seen) following.second_look.compare(place, std::move(*seen));
 }
 
 Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
@@ -274,6 +288,7 @@ Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
     state = Searching{FixStatus::lost};
     return search(frame);
   }
+  if (place.measured) look_again(following, frame);
   place.weigh(place.log_bayes_factor, fresh(coarse, frame.timestamp_s()));
   if (place.measured && place.odds.log() >= settings.odds.hold) {
     following.frames_without_measurement = 0;
@@ -303,11 +318,11 @@ Fix Localizer::Impl::located(const Place& place, FixStatus status) const {
   fix.version = place.session().layer.version;
   fix.segment = place.session().layer.segment;
   fix.along_m = std::clamp(position.along_m, 0.0, place.session().line.length_m());
-  fix.sigma_m = position.sigma_m;
+  fix.sigma_m = std::hypot(position.sigma_m, place.apart_m);
   fix.position = place.session().line.point_at(*fix.along_m);
   if (position.across) {
     fix.lateral_m = position.across->lateral_m;
-    fix.lateral_sigma_m = position.across->lateral_sigma_m;
+    fix.lateral_sigma_m = std::hypot(position.across->lateral_sigma_m, place.apart_m);
     fix.heading_deg = position.across->heading_deg;
     fix.position = position.across->position;
   }

@@ -7,8 +7,8 @@
 namespace milepost {
 namespace {
 
-constexpr double kSamePlaceM = 4;   // two beliefs so near to each other are one
 constexpr double kMinLogOdds = -4;  // below which a place is not pursued
+constexpr double kRivalPart = 0.6;  // of the best pose's matches, from which another is its rival
 
 // Whether two places are the same, as far as they know.
 bool is_same_place(const Place& a, const Place& b) {
@@ -16,16 +16,23 @@ bool is_same_place(const Place& a, const Place& b) {
          std::abs(a.follower->position().along_m - b.follower->position().along_m) < kSamePlaceM;
 }
 
-// Of places that are one, the pose that the frame speaks for most, with the odds of the likeliest.
+// Of places that are one, the pose that most of the frame agrees with, with the odds of the
+// likeliest.
 void merge_same(std::vector<Place>& places) {
-  std::ranges::stable_sort(places, std::greater<>(), &Place::log_bayes_factor);
+  std::ranges::stable_sort(places, std::greater<>(), &Place::matches);
   std::vector<Place> merged;
   for (Place& place : places) {
     const auto same = std::ranges::find_if(
         merged, [&](const Place& other) { return is_same_place(place, other); });
     if (same == merged.end()) {
       merged.push_back(std::move(place));
-    } else if (place.odds.log() > same->odds.log()) {
+      continue;
+    }
+    if (place.matches >= kRivalPart * same->matches) {
+      const double apart_m = geodesic_distance_m(place.position(), same->position());
+      same->apart_m = std::max(same->apart_m, apart_m);
+    }
+    if (place.odds.log() > same->odds.log()) {
       same->odds = place.odds;
       same->receiver = place.receiver;
     }
@@ -36,8 +43,7 @@ void merge_same(std::vector<Place>& places) {
 }  // namespace
 
 GeoPoint Place::position() const {
-  const TrackedPosition at = follower->position();
-  return at.across ? at.across->position : session().line.point_at(at.along_m);
+  return session().position_of(follower->position());
 }
 
 bool Place::is_on_segment(double along_m) const {
@@ -52,6 +58,7 @@ Followed Place::advance(SeenFrame& frame) {
   matches = followed.matches;
   log_bayes_factor = followed.log_bayes_factor;
   weighed = false;
+  apart_m = 0;
   odds.move(follower->position().along_m - before_m);
   return followed;
 }
@@ -84,7 +91,6 @@ double log_odds_of_first(const std::vector<Place>& places) {
 }
 
 double log_density_after(const Place& left, const Place& place) {
-  constexpr double kUsualSigmas = 2;  // up to which nothing speaks against it
   constexpr double kAccelerationMps2 = 2;
   const SegmentSession& before = left.session();
   const SegmentSession& now = place.session();
@@ -95,7 +101,7 @@ double log_density_after(const Place& left, const Place& place) {
       place.follower->position().along_m - left.follower->expected_along_m(place.timestamp_s);
   const double sigma_m =
       0.5 + left.follower->position().sigma_m + kAccelerationMps2 * since_s * since_s / 2;
-  const double sigmas = std::max(0.0, std::abs(off_m) / sigma_m - kUsualSigmas);
+  const double sigmas = off_m / sigma_m;
   return -sigmas * sigmas / 2;
 }
 

@@ -17,6 +17,9 @@ namespace milepost {
 
 inline constexpr double kEndMarginM = 5;  // the vehicle may be so far beyond a segment's ends
 
+inline constexpr double kSamePlaceM = 4;  // two beliefs so near to each other are one
+inline constexpr double kAgreedM = 0.5;   // ... and independent poses agree
+
 // A segment that is looked at.
 struct OpenSegment {
   SegmentSession session;
@@ -34,6 +37,8 @@ struct Place {
   double log_bayes_factor = 0;  // ... what did it say
   int matches = 0;
   bool weighed = false;  // ... is that part of the odds
+  // ... and how far off another pose is that as much of it agrees with, found independently.
+  double apart_m = 0;
 
   const SegmentSession& session() const { return segment->session; }
   GeoPoint position() const;

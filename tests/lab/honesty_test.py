@@ -28,7 +28,7 @@ def drive(error_m, sigma_m=0.1, tracking=True, on_map=True, has_begun=True, step
     def of_frames(values, kind=float):
         return np.broadcast_to(np.asarray(values, kind), len(error_m)).copy()
     return Drive("a", "milepost", of_frames(tracking, bool), of_frames(error_m), of_frames(sigma_m),
-                 of_frames(error_m if along_m is None else along_m), of_frames(sigma_m), of_frames(on_map, bool),
+                 of_frames(error_m if along_m is None else along_m), of_frames(sigma_m), 0.0, of_frames(on_map, bool),
                  of_frames(has_begun, bool), of_frames(step_m))
 
 

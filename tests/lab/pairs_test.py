@@ -4,7 +4,7 @@ import tempfile
 import unittest
 
 from laboratory.errors import LabError, WrongCall
-from laboratory.pairs import read_pairs, study_pairs
+from laboratory.pairs import Pair, Place, read_pairs, study_pairs
 
 
 class Pairs(unittest.TestCase):
@@ -31,6 +31,10 @@ class Pairs(unittest.TestCase):
         first, second = self.read("# comment\na a-map a-query\n\ndrives elsewhere\nb b-map b-query  # ours\n")
         self.assertEqual(first.place.folder / first.map_drive, self.folder / "a-map")
         self.assertEqual(second.place.folder / second.query_drive, self.folder / "elsewhere/b-query")
+
+    def test_a_tag_tells_how_good_the_recorded_positions_are(self):
+        self.assertEqual(Pair("a", Place(), "m", "q", frozenset({"truth-0.25m", "study"})).truth_sigma_m, 0.25)
+        self.assertEqual(Pair("a", Place(), "m", "q", frozenset({"truth"})).truth_sigma_m, 0)
 
     def test_commas_part_words_too(self):
         (pair,) = self.read("a, a-map, a-query, curved, study\n")

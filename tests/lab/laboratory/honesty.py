@@ -86,9 +86,10 @@ class Drive:
     method: str
     tracking: np.ndarray
     error_m: np.ndarray  # in plan
-    sigma_m: np.ndarray
+    sigma_m: np.ndarray  # claimed, and of the recorded positions
     along_error_m: np.ndarray
-    along_sigma_m: np.ndarray
+    along_sigma_m: np.ndarray  # claimed
+    truth_sigma_m: float
     on_map: np.ndarray
     has_begun: np.ndarray  # whether the frame lies after the beginning of a road
     step_m: np.ndarray  # from the frame before
@@ -125,8 +126,8 @@ def read_drive(file, run, roads, positions):
     return Drive(
         name=run.pair.name, method=file.stem.removeprefix("fixes-"),
         tracking=np.array([row["status"] == "tracking" for row in rows]),
-        error_m=np.linalg.norm(told_m[:, :2] - truth_m, axis=1), sigma_m=np.hypot(along_sigma_m, lateral_sigma_m),
-        along_error_m=np.abs(column(rows, "error_m")), along_sigma_m=along_sigma_m,
+        error_m=np.linalg.norm(told_m[:, :2] - truth_m, axis=1), sigma_m=np.sqrt(along_sigma_m ** 2 + lateral_sigma_m ** 2 + run.pair.truth_sigma_m ** 2),
+        along_error_m=np.abs(column(rows, "error_m")), along_sigma_m=along_sigma_m, truth_sigma_m=run.pair.truth_sigma_m,
         on_map=np.min([np.abs(road.lateral_m(truth_m)) for road in roads], axis=0) < ON_MAP_M,
         has_begun=np.any([road.has_begun_at(truth_m) for road in roads], axis=0),
         step_m=np.linalg.norm(np.diff(truth_m, axis=0, prepend=truth_m[:1]), axis=1))
@@ -137,7 +138,7 @@ def known_in_time(situation, drive):
     within = situation.in_frames
     if situation.kind == "start":
         known = (drive.tracking & (drive.along_sigma_m <= START_SIGMA_M)
-                 & (drive.along_error_m <= START_SIGMAS * drive.along_sigma_m))
+                 & (drive.along_error_m <= START_SIGMAS * np.hypot(drive.along_sigma_m, drive.truth_sigma_m)))
         return bool(known[:within].any())
     if situation.kind == "part":
         entered = drive.on_map & drive.has_begun
@@ -162,7 +163,7 @@ def first_fixes(drive):
     """The drive as far as its first fixes that are tracked."""
     kept = np.flatnonzero(drive.tracking & drive.told)[:FIRST_FIXES]
     return dataclasses.replace(drive, **{each.name: getattr(drive, each.name)[kept] for each in dataclasses.fields(drive)
-                                         if each.name not in ("name", "method")})
+                                         if each.name not in ("name", "method", "truth_sigma_m")})
 
 
 COLUMNS = [("frames", "", 0), ("on the map", "", 0), ("tracked", "", 0), ("wrong", "", 0), ("in time", "", None),
@@ -195,7 +196,8 @@ def cells_of(situation, drives):
 NOTE = (f"A fix is confidently wrong that is off by more than {WRONG_M:g} m and by more than {WRONG_SIGMAS:g} of its own "
         "sigmas, in plan; on a wrong road and in the opposite direction every fix that says `tracking` or a sigma below "
         f"{STRANGE_SIGMA_M:g} m is. Mean, 95th percentile and maximum are of tracked frames, the shares within 1 and 2 and "
-        f"beyond {BEYOND_SIGMAS} sigmas of all that were told. Parts are 30 to 70 % and 10 to 50 % of a map drive's "
+        f"beyond {BEYOND_SIGMAS} sigmas of all that were told; where the recorded positions are known to be rough, their sigma is "
+        "added. Parts are 30 to 70 % and 10 to 50 % of a map drive's "
         "frames; on the map is within 6 m of its line. Starts are pieces of 20 frames, one each 12, with one receiver "
         "position. In time: starts track (sigma at most 0.3 m, error within 3 sigma, along) within 3 frames, spoilt ones "
         "within 10; on parts within 3 frames of coming onto the map; a push is found out within 5 frames and nothing wrong "

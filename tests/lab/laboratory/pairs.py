@@ -6,7 +6,8 @@ commas, '#' before a comment. Two other lines say where the drives after them ar
   drives FOLDER       relative to the list's own folder, which is also the default
   simulate OPTION...  drives that milepost-simulator makes with these options, when they are needed
 
-The tag `study` marks the pairs that studies run on; where none is marked they run on all.
+The tag `truth-0.25m` says that the recorded positions are good to 0.25 m only, one sigma; `reversed` that the query is
+driven in the opposite direction. The tag `study` marks the pairs that studies run on; where none is marked they run on all.
 """
 import dataclasses
 import pathlib
@@ -14,6 +15,7 @@ import re
 
 from .errors import LabError, WrongCall
 
+TRUTH = re.compile(r"truth-(\d+(?:\.\d+)?)m")
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 
 
@@ -34,6 +36,11 @@ class Pair:
     map_drive: str
     query_drive: str
     tags: frozenset[str] = frozenset()
+
+    @property
+    def truth_sigma_m(self):
+        """Of the recorded positions of the query, as far as it is known."""
+        return next((float(found[1]) for tag in self.tags if (found := TRUTH.fullmatch(tag))), 0.0)
 
 
 def read_pairs(path):

@@ -1,0 +1,41 @@
+#include "client/localize/second_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace milepost {
+namespace {
+
+constexpr int kFirstLooks = 10;     // frame by frame
+constexpr double kApartM = 5;       // later ones
+constexpr double kMoreAgree = 1.1;  // times the matches, from which a look is against the pose
+constexpr int kLooksAgainst = 2;    // in turn, until the belief begins again
+
+}  // namespace
+
+bool SecondLook::is_due(double along_m) const {
+  return looks_ < kFirstLooks || against_ > 0 || std::abs(along_m - looked_from_m_) >= kApartM;
+}
+
+void SecondLook::compare(Place& place, std::vector<Sighting> sightings) {
+  ++looks_;
+  looked_from_m_ = place.follower->position().along_m;
+  const auto most = std::ranges::max_element(sightings, {}, &Sighting::matches);
+  const double apart_m =
+      most == sightings.end()
+          ? 0
+          : geodesic_distance_m(place.session().position_of(most->follower->position()),
+                                place.position());
+  const bool is_against =
+      apart_m > kAgreedM && apart_m < kSamePlaceM && most->matches > kMoreAgree * place.matches;
+  against_ = is_against ? against_ + 1 : 0;
+  if (!is_against) return;
+  place.apart_m = apart_m;
+  if (against_ < kLooksAgainst) return;
+  place.follower = std::move(most->follower);
+  place.matches = most->matches;
+  place.log_bayes_factor = most->log_bayes_factor;
+  against_ = 0;
+}
+
+}  // namespace milepost

@@ -1,0 +1,26 @@
+// The pose of a place that is followed, found anew now and then without the belief.
+#pragma once
+
+#include <vector>
+
+#include "client/localize/place.h"
+
+namespace milepost {
+
+// A belief that slipped into a pose that only a part of the frame agrees with stays there, for it
+// searches landmarks where it expects them, and the far ones agree with many poses.
+class SecondLook {
+ public:
+  // Often at first, then each few metres.
+  bool is_due(double along_m) const;
+  // What was seen at the place without its belief. Where more of the frame agrees with another
+  // pose, the place is that uncertain (`apart_m`); twice in turn, and it begins again from there.
+  void compare(Place& place, std::vector<Sighting> sightings);
+
+ private:
+  int looks_ = 0;
+  double looked_from_m_ = 0;
+  int against_ = 0;  // so many in turn
+};
+
+}  // namespace milepost
