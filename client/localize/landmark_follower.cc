@@ -90,9 +90,11 @@ void LandmarkFollower::measure(const CompactFrame& frame, const PoseBelief& befo
 
 TrackedPosition LandmarkFollower::position() const {
   const Placed at = placed(belief_);
-  const double missed = std::sqrt(1 + method_.missed_variance * missed_part_ * missed_part_);
-  return {at.along_m, missed * at.along_sigma_m,
-          Across{at.lateral_m, missed * at.lateral_sigma_m,
+  const double inside_m = std::max(0.0, std::min(at.along_m, line_.length_m() - at.along_m));
+  const double factor = std::sqrt(1 + method_.missed_variance * missed_part_ * missed_part_ +
+                                  method_.end_variance * std::exp(-inside_m / method_.end_reach_m));
+  return {at.along_m, factor * at.along_sigma_m,
+          Across{at.lateral_m, factor * at.lateral_sigma_m,
                  wrapped_360(belief_.mean[kHeading] / kRadPerDeg), position_of(belief_)}};
 }
 

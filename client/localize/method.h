@@ -86,6 +86,10 @@ struct LandmarkMethod {
   // Frames that miss much of what they should show are less exact than what they find agrees:
   // variance, as told, grows by so much times the square of the part that is missed.
   double missed_variance = 6;
+  // Landmarks at an end of the line were seen on one side of it only: the variance there is 1 +
+  // end_variance times as much, and falls so fast inside.
+  double end_variance = 8;
+  double end_reach_m = 3;
 };
 
 struct Method {

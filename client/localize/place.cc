@@ -17,7 +17,7 @@ bool is_same_place(const Place& a, const Place& b) {
 }
 
 // Of places that are one, the pose that most of the frame agrees with, with the odds of the
-// likeliest.
+// likeliest and what the frame says for any of them.
 void merge_same(std::vector<Place>& places) {
   std::ranges::stable_sort(places, std::greater<>(), &Place::matches);
   std::vector<Place> merged;
@@ -32,6 +32,7 @@ void merge_same(std::vector<Place>& places) {
       const double apart_m = geodesic_distance_m(place.position(), same->position());
       same->apart_m = std::max(same->apart_m, apart_m);
     }
+    same->log_bayes_factor = std::max(same->log_bayes_factor, place.log_bayes_factor);
     if (place.odds.log() > same->odds.log()) {
       same->odds = place.odds;
       same->receiver = place.receiver;
@@ -42,9 +43,7 @@ void merge_same(std::vector<Place>& places) {
 
 }  // namespace
 
-GeoPoint Place::position() const {
-  return session().position_of(follower->position());
-}
+GeoPoint Place::position() const { return session().position_of(follower->position()); }
 
 bool Place::is_on_segment(double along_m) const {
   return along_m >= -kEndMarginM && along_m <= session().line.length_m() + kEndMarginM;

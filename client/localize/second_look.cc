@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kFirstLooks = 10;     // frame by frame
 constexpr double kApartM = 5;       // later ones
+constexpr double kRivalPart = 0.9;  // of the matches, from which the pose is uncertain
 constexpr double kMoreAgree = 1.1;  // times the matches, from which a look is against the pose
 constexpr int kLooksAgainst = 2;    // in turn, until the belief begins again
 
@@ -26,11 +27,11 @@ void SecondLook::compare(Place& place, std::vector<Sighting> sightings) {
           ? 0
           : geodesic_distance_m(place.session().position_of(most->follower->position()),
                                 place.position());
-  const bool is_against =
-      apart_m > kAgreedM && apart_m < kSamePlaceM && most->matches > kMoreAgree * place.matches;
+  const bool is_rival =
+      apart_m > kAgreedM && apart_m < kSamePlaceM && most->matches > kRivalPart * place.matches;
+  const bool is_against = is_rival && most->matches > kMoreAgree * place.matches;
   against_ = is_against ? against_ + 1 : 0;
-  if (!is_against) return;
-  place.apart_m = apart_m;
+  if (is_rival) place.apart_m = apart_m;
   if (against_ < kLooksAgainst) return;
   place.follower = std::move(most->follower);
   place.matches = most->matches;

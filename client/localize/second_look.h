@@ -13,8 +13,9 @@ class SecondLook {
  public:
   // Often at first, then each few metres.
   bool is_due(double along_m) const;
-  // What was seen at the place without its belief. Where more of the frame agrees with another
-  // pose, the place is that uncertain (`apart_m`); twice in turn, and it begins again from there.
+  // What was seen at the place without its belief. Where about as much of the frame agrees with
+  // another pose, the place is that uncertain (`apart_m`); where more does, twice in turn, the
+  // belief begins again from there.
   void compare(Place& place, std::vector<Sighting> sightings);
 
  private:

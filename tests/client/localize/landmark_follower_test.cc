@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "client/localize/localizer.h"
 #include "tests/client/localize/landmark_road.h"
@@ -120,6 +121,27 @@ TEST_F(FollowingByLandmarks, FromBeforeTheRoadBegins) {
     EXPECT_NEAR(*fix.along_m, std::max(0.0, along_m), 0.1);
     EXPECT_NEAR(*fix.lateral_m, -0.8, 0.1) << along_m;
   }
+}
+
+TEST_F(FollowingByLandmarks, AtAnEndOfTheMapSigmaIsWider) {
+  LocalizerSettings everywhere_alike = settings();
+  std::get<LandmarkMethod>(everywhere_alike.method.how).end_variance = 0;
+  Localizer other(map_, road().query_camera(), everywhere_alike);
+  std::mt19937 random(3);
+  std::map<double, double> ratios;
+  for (double along_m = 0; along_m < 30; along_m += kFrameM, time_s_ += kFrameM / kSpeedMps) {
+    const FeatureSet set = road().seen_from({along_m, 0, 0}, 0, random);
+    const auto features = [&](const FeatureParameters&) -> const FeatureSet& { return set; };
+    std::vector<double> sigmas_m;
+    for (Localizer* localizer : {&localizer_, &other}) {
+      if (along_m == 0) localizer->observe({time_s_, road().line().point_at(2), 8});
+      sigmas_m.push_back(localizer->localize({time_s_, features})->sigma_m);
+    }
+    ratios[along_m] = sigmas_m[0] / sigmas_m[1];
+  }
+  EXPECT_GT(ratios[2], 1.5);
+  EXPECT_GT(ratios[2], ratios[6]);
+  EXPECT_NEAR(ratios[25], 1, 0.1);
 }
 
 TEST_F(FollowingByLandmarks, ThroughALaneChange) {

@@ -68,6 +68,7 @@ TEST_F(Places, OfPlacesThatAreOneThePoseThatMostAgreesWithStays) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(along_m(all[0]), 20);
   EXPECT_GT(all[0].odds.log(), 3);  // those of the likelier
+  EXPECT_EQ(all[0].log_bayes_factor, 9);
   EXPECT_EQ(along_m(all[1]), 60);
 }
 
@@ -113,8 +114,8 @@ TEST_F(Places, BehindWhereOneWasLeftIsUnlikelySoonAfter) {
 TEST_F(Places, ASecondLookThatAgreesChangesNothing) {
   SecondLook look;
   Place followed = place(20, 100, 5);
-  // The same pose; one that hardly more agrees with; one that is another place's.
-  for (const auto& [seen_m, matches] : {std::pair{20.3, 130}, {22.0, 105}, {26.0, 130}}) {
+  // The same pose; one that less agrees with; one that is another place's.
+  for (const auto& [seen_m, matches] : {std::pair{20.3, 130}, {22.0, 85}, {26.0, 130}}) {
     for (int turn = 0; turn < 2; ++turn) {
       std::vector<Sighting> seen;
       seen.push_back(sighting(seen_m, matches));
@@ -144,6 +145,18 @@ TEST_F(Places, WhereMoreAgreesTwiceInTurnTheBeliefBeginsAgain) {
   EXPECT_EQ(along_m(followed), 21.4);
   EXPECT_EQ(followed.matches, 130);
   EXPECT_NEAR(followed.apart_m, 1.4, 0.01);  // it tells so
+}
+
+TEST_F(Places, WhereAboutAsMuchAgreesThePlaceIsUncertainAndStays) {
+  SecondLook look;
+  Place followed = place(20, 100, 5);
+  for (int turn = 0; turn < 3; ++turn) {
+    std::vector<Sighting> seen;
+    seen.push_back(sighting(22, 105));
+    look.compare(followed, std::move(seen));
+    EXPECT_NEAR(followed.apart_m, 2, 0.01);
+  }
+  EXPECT_EQ(along_m(followed), 20);
 }
 
 TEST_F(Places, SecondLooksAreOftenAtFirst) {
