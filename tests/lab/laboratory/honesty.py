@@ -126,7 +126,8 @@ def read_drive(file, run, roads, positions):
     return Drive(
         name=run.pair.name, method=file.stem.removeprefix("fixes-"),
         tracking=np.array([row["status"] == "tracking" for row in rows]),
-        error_m=np.linalg.norm(told_m[:, :2] - truth_m, axis=1), sigma_m=np.sqrt(along_sigma_m ** 2 + lateral_sigma_m ** 2 + run.pair.truth_sigma_m ** 2),
+        error_m=np.linalg.norm(told_m[:, :2] - truth_m, axis=1),
+        sigma_m=np.sqrt(along_sigma_m ** 2 + lateral_sigma_m ** 2 + run.pair.truth_sigma_m ** 2),
         along_error_m=np.abs(column(rows, "error_m")), along_sigma_m=along_sigma_m, truth_sigma_m=run.pair.truth_sigma_m,
         on_map=np.min([np.abs(road.lateral_m(truth_m)) for road in roads], axis=0) < ON_MAP_M,
         has_begun=np.any([road.has_begun_at(truth_m) for road in roads], axis=0),
