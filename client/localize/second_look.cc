@@ -10,12 +10,13 @@ constexpr int kFirstLooks = 10;     // frame by frame
 constexpr double kApartM = 5;       // later ones
 constexpr double kRivalPart = 0.9;  // of the matches, from which the pose is uncertain
 constexpr double kMoreAgree = 1.1;  // times the matches, from which a look is against the pose
+constexpr int kCalmLooks = 3;       // without a rival, until the pose is certain again
 constexpr int kLooksAgainst = 2;    // in turn, until the belief begins again
 
 }  // namespace
 
 bool SecondLook::is_due(double along_m) const {
-  return looks_ < kFirstLooks || against_ > 0 || std::abs(along_m - looked_from_m_) >= kApartM;
+  return looks_ < kFirstLooks || apart_m_ > 0 || std::abs(along_m - looked_from_m_) >= kApartM;
 }
 
 void SecondLook::compare(Place& place, std::vector<Sighting> sightings) {
@@ -31,7 +32,10 @@ void SecondLook::compare(Place& place, std::vector<Sighting> sightings) {
       apart_m > kAgreedM && apart_m < kSamePlaceM && most->matches > kRivalPart * place.matches;
   const bool is_against = is_rival && most->matches > kMoreAgree * place.matches;
   against_ = is_against ? against_ + 1 : 0;
-  if (is_rival) place.apart_m = apart_m;
+  calm_ = is_rival ? 0 : calm_ + 1;
+  if (is_rival) apart_m_ = apart_m;
+  if (calm_ >= kCalmLooks) apart_m_ = 0;
+  place.apart_m = apart_m_;
   if (against_ < kLooksAgainst) return;
   place.follower = std::move(most->follower);
   place.matches = most->matches;

@@ -14,14 +14,16 @@ class SecondLook {
   // Often at first, then each few metres.
   bool is_due(double along_m) const;
   // What was seen at the place without its belief. Where about as much of the frame agrees with
-  // another pose, the place is that uncertain (`apart_m`); where more does, twice in turn, the
-  // belief begins again from there.
+  // another pose, the place is that uncertain (`apart_m`) for some looks; where more does, twice in
+  // turn, the belief begins again from there.
   void compare(Place& place, std::vector<Sighting> sightings);
 
  private:
   int looks_ = 0;
   double looked_from_m_ = 0;
-  int against_ = 0;  // so many in turn
+  int against_ = 0;     // so many in turn
+  double apart_m_ = 0;  // of the latest rival ...
+  int calm_ = 0;        // ... and so many looks since
 };
 
 }  // namespace milepost

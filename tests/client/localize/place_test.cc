@@ -138,13 +138,18 @@ TEST_F(Places, WhereMoreAgreesTwiceInTurnTheBeliefBeginsAgain) {
   };
   against();
   EXPECT_NEAR(followed.apart_m, 1.4, 0.01);
-  look.compare(followed, {});  // not in turn
+  look.compare(followed, {});                // not in turn ...
+  EXPECT_NEAR(followed.apart_m, 1.4, 0.01);  // ... but uncertain for a while
   against();
   EXPECT_EQ(along_m(followed), 20);
   against();
   EXPECT_EQ(along_m(followed), 21.4);
   EXPECT_EQ(followed.matches, 130);
-  EXPECT_NEAR(followed.apart_m, 1.4, 0.01);  // it tells so
+  for (const double apart_m : {1.4, 1.4, 0.0}) {
+    EXPECT_NEAR(followed.apart_m, 1.4, 0.01);  // it tells so
+    look.compare(followed, {});
+    EXPECT_NEAR(followed.apart_m, apart_m, 0.01);
+  }
 }
 
 TEST_F(Places, WhereAboutAsMuchAgreesThePlaceIsUncertainAndStays) {
