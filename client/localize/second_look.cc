@@ -7,7 +7,7 @@ namespace milepost {
 namespace {
 
 constexpr int kFirstLooks = 10;     // frame by frame
-constexpr double kApartM = 5;       // later ones
+constexpr double kLookAgainM = 5;   // of way between later ones
 constexpr double kRivalPart = 0.9;  // of the matches, from which the pose is uncertain
 constexpr double kMoreAgree = 1.1;  // times the matches, from which a look is against the pose
 constexpr int kCalmLooks = 3;       // without a rival, until the pose is certain again
@@ -16,7 +16,7 @@ constexpr int kLooksAgainst = 2;    // in turn, until the belief begins again
 }  // namespace
 
 bool SecondLook::is_due(double along_m) const {
-  return looks_ < kFirstLooks || apart_m_ > 0 || std::abs(along_m - looked_from_m_) >= kApartM;
+  return looks_ < kFirstLooks || apart_m_ > 0 || std::abs(along_m - looked_from_m_) >= kLookAgainM;
 }
 
 void SecondLook::compare(Place& place, std::vector<Sighting> sightings) {

@@ -11,7 +11,7 @@ namespace milepost {
 // searches landmarks where it expects them, and the far ones agree with many poses.
 class SecondLook {
  public:
-  // Often at first, then each few metres.
+  // Often at first and while the pose is uncertain, then each few metres.
   bool is_due(double along_m) const;
   // What was seen at the place without its belief. Where about as much of the frame agrees with
   // another pose, the place is that uncertain (`apart_m`) for some looks; where more does, twice in
@@ -21,7 +21,7 @@ class SecondLook {
  private:
   int looks_ = 0;
   double looked_from_m_ = 0;
-  int against_ = 0;     // so many in turn
+  int against_ = 0;     // so many looks in turn
   double apart_m_ = 0;  // of the latest rival ...
   int calm_ = 0;        // ... and so many looks since
 };

@@ -6,6 +6,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>
 
+#include "client/cli/drive_playback.h"
 #include "client/fetch/file_source.h"
 #include "client/localize/localizer.h"
 #include "mapper/build/build_map.h"
@@ -59,10 +60,7 @@ int main(int argc, char** argv) {
   if (!source) return fail(source.error());
   LocalizerSettings localizer_settings;
   localizer_settings.method = *method;
-  const Camera& camera = query->camera;
-  const QueryCamera query_camera = {camera.width_px,       camera.height_px,
-                                    camera.focal_x_px,     camera.focal_y_px,
-                                    camera.principal_x_px, camera.principal_y_px};
+  const QueryCamera query_camera = query_camera_of(query->camera);
   const std::shared_ptr<MapSource> shared_source = std::move(*source);
   Localizer localizer(shared_source, query_camera, localizer_settings);
   Localizer searcher(shared_source, query_camera, localizer_settings);  // finds nothing

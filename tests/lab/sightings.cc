@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "client/cli/drive_playback.h"
 #include "client/fetch/file_source.h"
 #include "client/localize/follower.h"
 #include "client/localize/localizer.h"
@@ -72,10 +73,7 @@ int main(int argc, char** argv) {
   const Result<Method> method = method_named(kDefaultMethod);
   if (!method) return fail(method.error());
   settings.method = *method;
-  const Camera& camera = drive->camera;
-  const QueryCamera query_camera = {camera.width_px,       camera.height_px,
-                                    camera.focal_x_px,     camera.focal_y_px,
-                                    camera.principal_x_px, camera.principal_y_px};
+  const QueryCamera query_camera = query_camera_of(drive->camera);
   std::ofstream out(argv[4]);
   out << "filename,segment,along_m,latitude_deg,longitude_deg,matches,log_bayes_factor,"
          "lateral_m,up_m,turned_deg\n";

@@ -34,16 +34,10 @@ double angle_between_deg(double a_deg, double b_deg) {
 
 class FollowingByLandmarks : public ::testing::Test {
  protected:
-  // The road is the same for all tests.
-  static const LandmarkRoad& road() {
-    static const LandmarkRoad road;
-    return road;
-  }
+  static const LandmarkRoad& road() { return testing::shared_road(); }
 
   static LocalizerSettings settings() {
-    LocalizerSettings settings;
-    settings.method = *method_named(kDefaultMethod);
-    settings.prefetch_m = 0;
+    LocalizerSettings settings = testing::settings_without_prefetcher();
     settings.window.reach = {5, 5};  // so the source is asked often
     return settings;
   }

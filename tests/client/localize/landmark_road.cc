@@ -156,6 +156,18 @@ FeatureSet LandmarkRoad::seen_from(const RoadPose& at, double mounting_deg,
   return set;
 }
 
+const LandmarkRoad& shared_road() {
+  static const LandmarkRoad road;
+  return road;
+}
+
+LocalizerSettings settings_without_prefetcher() {
+  LocalizerSettings settings;
+  settings.method = *method_named(kDefaultMethod);
+  settings.prefetch_m = 0;
+  return settings;
+}
+
 LandmarkRoadMap::LandmarkRoadMap(const LandmarkRoad& road) : description_(road.description()) {
   const nlohmann::json parameters = {
       {"items", "landmarks"},

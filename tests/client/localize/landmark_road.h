@@ -61,6 +61,12 @@ class LandmarkRoad {
   Codebook codebook_;
 };
 
+// The road, made once for all tests.
+const LandmarkRoad& shared_road();
+
+// Of the default method, which asks the source itself.
+LocalizerSettings settings_without_prefetcher();
+
 // The map of the road; its tiles can be made to fail.
 class LandmarkRoadMap : public MapSource {
  public:

@@ -19,17 +19,7 @@ constexpr double kReceiverSigmaM = 5;
 
 class RightOrSilent : public ::testing::Test {
  protected:
-  static const LandmarkRoad& road() {
-    static const LandmarkRoad road;
-    return road;
-  }
-
-  static LocalizerSettings settings() {
-    LocalizerSettings settings;
-    settings.method = *method_named(kDefaultMethod);
-    settings.prefetch_m = 0;
-    return settings;
-  }
+  static const LandmarkRoad& road() { return testing::shared_road(); }
 
   // The fix of the next frame, taken there.
   Fix fix(const RoadPose& truth) { return fix_of(road().seen_from(truth, 0, random_)); }
@@ -69,7 +59,7 @@ class RightOrSilent : public ::testing::Test {
   }
 
   std::shared_ptr<LandmarkRoadMap> map_ = std::make_shared<LandmarkRoadMap>(road());
-  Localizer localizer_{map_, road().query_camera(), settings()};
+  Localizer localizer_{map_, road().query_camera(), testing::settings_without_prefetcher()};
   double time_s_ = 100;
   std::mt19937 random_{11};
 };
