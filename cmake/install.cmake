@@ -25,8 +25,7 @@ milepost_install_library(store schema/store)
 milepost_install_library(cache client/cache)
 milepost_install_library(fetch client/fetch)
 milepost_install_library(localize client/localize)
-milepost_install_library(vanishing client/vanishing)
-milepost_install_library(find client/find)
+milepost_install_library(global client/global)
 milepost_install_library(client)
 
 install(EXPORT milepost NAMESPACE milepost:: FILE milepost-targets.cmake

@@ -4,12 +4,13 @@
 #include <set>
 
 #include "client/cli/commands.h"
-#include "client/cli/estimates.h"
-#include "client/cli/output.h"
-#include "client/cli/replay.h"
-#include "client/cli/report.h"
-#include "client/cli/report_page.h"
 #include "client/cli/source_options.h"
+#include "client/evaluate/baselines/methods.h"
+#include "client/evaluate/estimates.h"
+#include "client/evaluate/output.h"
+#include "client/evaluate/replay.h"
+#include "client/evaluate/report/report.h"
+#include "client/evaluate/report/report_page.h"
 #include "schema/base/file.h"
 
 namespace milepost {

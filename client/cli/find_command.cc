@@ -2,13 +2,13 @@
 #include <iostream>
 #include <map>
 
-#include "client/cli/cells.h"
 #include "client/cli/commands.h"
-#include "client/cli/find_errors.h"
-#include "client/cli/find_report.h"
-#include "client/cli/output.h"
-#include "client/cli/report_page.h"
 #include "client/cli/source_options.h"
+#include "client/evaluate/cells.h"
+#include "client/evaluate/find_errors.h"
+#include "client/evaluate/output.h"
+#include "client/evaluate/report/find_report.h"
+#include "client/evaluate/report/report_page.h"
 #include "client/fetch/walls.h"
 #include "schema/base/file.h"
 #include "schema/geo/geodesy.h"

@@ -1,9 +1,10 @@
 #include <iostream>
 
 #include "client/cli/commands.h"
-#include "client/cli/output.h"
-#include "client/cli/replay.h"
 #include "client/cli/source_options.h"
+#include "client/evaluate/baselines/methods.h"
+#include "client/evaluate/output.h"
+#include "client/evaluate/replay.h"
 #include "schema/base/file.h"
 
 namespace milepost {

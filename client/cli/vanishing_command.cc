@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/commands.h"
-#include "client/vanishing/vanishing_directions.h"
+#include "client/global/vanishing_directions.h"
 #include "schema/base/file.h"
 #include "schema/base/output_file.h"
 #include "schema/command/command.h"

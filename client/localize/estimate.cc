@@ -74,20 +74,6 @@ TrustedMean trusted_mean_about(const std::vector<PositionEstimate>& estimates, d
 
 }  // namespace
 
-std::optional<Measurement> combine_by_mean(const std::vector<PositionEstimate>& estimates,
-                                           double min_sigma_m) {
-  if (estimates.empty()) return std::nullopt;
-  const auto count = static_cast<double>(estimates.size());
-  double mean_m = 0;  // Eq. 4
-  for (const PositionEstimate& estimate : estimates) mean_m += estimate.along_m / count;
-  double variance = 0;  // Eq. 5
-  for (const PositionEstimate& estimate : estimates) {
-    variance += (estimate.along_m - mean_m) * (estimate.along_m - mean_m) / count;
-  }
-  return Measurement{mean_m, std::max(std::sqrt(variance), min_sigma_m),
-                     static_cast<int>(estimates.size())};
-}
-
 std::optional<Measurement> combine_robustly(const std::vector<PositionEstimate>& estimates,
                                             const RobustSettings& settings) {
   if (static_cast<int>(estimates.size()) < settings.min_support) return std::nullopt;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "schema/base/range.h"
+
 namespace milepost {
 
 // What one matched tracklet says of the capture position (Eq. 3).
@@ -23,11 +25,13 @@ struct Measurement {
   double shared_sigma_m = 0;
 };
 
-// The paper's combination: mean (Eq. 4) and spread (Eq. 5) of all estimates, each weighing the
-// same. Nothing for no estimate. A floor of `min_sigma_m` keeps a single estimate from being
-// certain.
-std::optional<Measurement> combine_by_mean(const std::vector<PositionEstimate>& estimates,
-                                           double min_sigma_m);
+// What one tracklet said of a frame that was followed, for those who study estimates.
+struct TrackletEstimate {
+  PositionEstimate estimate;
+  double scale_px = 0;   // of the matched feature, as the map's camera would see it
+  AlongRange along;      // of the tracklet
+  double r_squared = 0;  // of its regression
+};
 
 struct RobustSettings {
   double vote_width_m = 1.0;  // half width of the kernel that finds the densest position

@@ -5,11 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "client/localize/estimate.h"
-#include "client/localize/localizer.h"
 #include "client/localize/seen_frame.h"
 #include "client/localize/segment_session.h"
-#include "client/localize/tracker.h"
+#include "client/localize/tracked_position.h"
+#include "schema/geo/odometry.h"
 
 namespace milepost {
 
@@ -56,24 +55,7 @@ class Scout {
   virtual Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) = 0;
 };
 
-// By tracklets: matches, their combination, a tracker.
-std::unique_ptr<Scout> make_tracklet_scout(const SegmentSession& session, const QueryCamera& camera,
-                                           const LocalizerSettings& settings,
-                                           const TrackletMethod& method);
-
-// By landmarks: matches, a pose, and the belief that carries it on.
-// REQUIRES: a layer of landmarks, so that the session has a codebook.
-std::unique_ptr<Scout> make_landmark_scout(const SegmentSession& session, const QueryCamera& camera,
-                                           const LocalizerSettings& settings,
-                                           const LandmarkMethod& method);
-
-// By whole frames: dynamic time warping.
-std::unique_ptr<Scout> make_warp_scout(const SegmentSession& session, const QueryCamera& camera,
-                                       const LocalizerSettings& settings, const WarpMethod& method);
-
-// As the method of the settings does. REQUIRES: `session` outlives the scout and its followers.
-// Errors: corrupt (the layer holds other items than the method needs).
-Result<std::unique_ptr<Scout>> make_scout(const SegmentSession& session, const QueryCamera& camera,
-                                          const LocalizerSettings& settings);
+// The error where a method cannot use what the session's layer holds: corrupt.
+Error unusable_items(const SegmentSession& session);
 
 }  // namespace milepost

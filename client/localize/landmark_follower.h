@@ -5,6 +5,7 @@
 
 #include "client/localize/follower.h"
 #include "client/localize/landmark_matching.h"
+#include "client/localize/landmark_method.h"
 #include "client/localize/landmark_window.h"
 #include "client/localize/place_evidence.h"
 #include "client/localize/pose_solver.h"

@@ -10,7 +10,7 @@ namespace {
 class LandmarkScout : public Scout {
  public:
   LandmarkScout(const SegmentSession& session, const QueryCamera& camera,
-                const LocalizerSettings& settings, const LandmarkMethod& method)
+                const ScoutSettings& settings, const LandmarkMethod& method)
       : search_{&session,
                 {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px,
                  camera.principal_y_px},
@@ -18,7 +18,7 @@ class LandmarkScout : public Scout {
                 method,
                 settings.min_start_support,
                 settings.on_estimate},
-        window_(session.layer, settings.window.reach, session.line) {}
+        window_(session.layer, settings.reach, session.line) {}
 
   Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
     const RouteLine& line = search_.session->line;
@@ -70,10 +70,14 @@ class LandmarkScout : public Scout {
 
 }  // namespace
 
-std::unique_ptr<Scout> make_landmark_scout(const SegmentSession& session, const QueryCamera& camera,
-                                           const LocalizerSettings& settings,
-                                           const LandmarkMethod& method) {
-  return std::make_unique<LandmarkScout>(session, camera, settings, method);
+Method landmark_method(const LandmarkMethod& settings) {
+  const auto make_scout = [settings](const SegmentSession& session, const QueryCamera& camera,
+                                     const ScoutSettings& scout) -> Result<std::unique_ptr<Scout>> {
+    if (session.items != LayerItems::landmarks) return unusable_items(session);
+    return std::unique_ptr<Scout>(
+        std::make_unique<LandmarkScout>(session, camera, scout, settings));
+  };
+  return {kDefaultMethod, "tracklets", make_scout, true};
 }
 
 }  // namespace milepost

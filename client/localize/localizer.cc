@@ -5,6 +5,7 @@
 #include <limits>
 #include <variant>
 
+#include "client/fetch/prefetcher.h"
 #include "client/localize/place.h"
 #include "client/localize/second_look.h"
 
@@ -40,22 +41,6 @@ struct Following {
 };
 
 }  // namespace
-
-const char* name_of(FixStatus status) {
-  switch (status) {
-    case FixStatus::initializing:
-      return "initializing";
-    case FixStatus::tracking:
-      return "tracking";
-    case FixStatus::predicted:
-      return "predicted";
-    case FixStatus::lost:
-      return "lost";
-    case FixStatus::off_map:
-      return "off-map";
-  }
-  return "";
-}
 
 struct Localizer::Impl {
   std::shared_ptr<MapSource> source;
@@ -158,7 +143,8 @@ Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(const NearbySegment
       open_session({source, where.version, where.segment, settings.method.layer});
   if (!session) return session.error();
   auto segment = std::make_shared<OpenSegment>(OpenSegment{std::move(*session), nullptr});
-  Result<std::unique_ptr<Scout>> scout = make_scout(segment->session, camera, settings);
+  Result<std::unique_ptr<Scout>> scout =
+      settings.method.make_scout(segment->session, camera, settings.scout);
   if (!scout) return scout.error();
   segment->scout = std::move(*scout);
   if (segments.size() == kMaxCandidates) segments.erase(segments.begin());
@@ -264,8 +250,7 @@ void Localizer::Impl::claim(Place place) {
 void Localizer::Impl::look_again(Following& following, SeenFrame& frame) const {
   Place& place = following.place;
   const double along_m = place.follower->position().along_m;
-  const bool is_ours = std::holds_alternative<LandmarkMethod>(settings.method.how);
-  if (!is_ours || !following.second_look.is_due(along_m)) return;
+  if (!settings.method.looks_again || !following.second_look.is_due(along_m)) return;
   const AlongRange around = AlongRange{along_m, along_m}.widened(kSamePlaceM);
   Result<std::vector<Sighting>> seen = place.segment->scout->look(frame, around);
   if (seen) following.second_look.compare(place, std::move(*seen));

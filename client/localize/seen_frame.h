@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "client/localize/landmark_matching.h"
-#include "client/localize/localizer.h"
+#include "client/localize/query.h"
 
 namespace milepost {
 

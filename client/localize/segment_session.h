@@ -6,7 +6,7 @@
 #include <string>
 
 #include "client/localize/tile_window.h"
-#include "client/localize/tracker.h"
+#include "client/localize/tracked_position.h"
 #include "schema/feature/codebook.h"
 #include "schema/feature/types.h"
 #include "schema/geo/route_line.h"

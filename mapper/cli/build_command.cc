@@ -9,7 +9,7 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "mapper/build/build_map.h"
+#include "mapper/pipeline/build_map.h"
 #include "schema/base/output_file.h"
 #include "schema/command/command.h"
 #include "schema/store/map_output.h"

@@ -8,7 +8,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "client/find/finder.h"
+#include "client/global/finder.h"
 #include "mapper/aerial/footprints.h"
 #include "schema/drive/frame_image.h"
 #include "schema/drive/pinhole.h"

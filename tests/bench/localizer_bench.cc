@@ -6,10 +6,11 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>
 
-#include "client/cli/drive_playback.h"
+#include "client/evaluate/baselines/methods.h"
+#include "client/evaluate/drive_playback.h"
 #include "client/fetch/file_source.h"
 #include "client/localize/localizer.h"
-#include "mapper/build/build_map.h"
+#include "mapper/pipeline/build_map.h"
 #include "schema/drive/frame_image.h"
 #include "schema/feature/extractor.h"
 #include "tests/bench/timing.h"

@@ -9,7 +9,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/features2d.hpp>
 
-#include "mapper/build/build_map.h"
+#include "mapper/pipeline/build_map.h"
 #include "schema/drive/frame_image.h"
 #include "tests/bench/timing.h"
 

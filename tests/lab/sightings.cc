@@ -9,10 +9,10 @@
 #include <fstream>
 #include <string_view>
 
-#include "client/cli/drive_playback.h"
+#include "client/evaluate/drive_playback.h"
 #include "client/fetch/file_source.h"
 #include "client/localize/follower.h"
-#include "client/localize/localizer.h"
+#include "client/localize/landmark_method.h"
 #include "schema/drive/frame_image.h"
 #include "schema/feature/extractor.h"
 
@@ -69,10 +69,7 @@ int main(int argc, char** argv) {
   Result<std::unique_ptr<MapSource>> opened = open_file_source(argv[1]);
   if (!opened) return fail(opened.error());
   const std::shared_ptr<MapSource> source = std::move(*opened);
-  LocalizerSettings settings;
-  const Result<Method> method = method_named(kDefaultMethod);
-  if (!method) return fail(method.error());
-  settings.method = *method;
+  const Method method = landmark_method();
   const QueryCamera query_camera = query_camera_of(drive->camera);
   std::ofstream out(argv[4]);
   out << "filename,segment,along_m,latitude_deg,longitude_deg,matches,log_bayes_factor,"
@@ -82,10 +79,9 @@ int main(int argc, char** argv) {
   if (!segments) return fail(segments.error());
   const FrameReader frames(*drive);
   for (const NearbySegment& segment : *segments) {
-    const auto session =
-        open_session({source, segment.version, segment.segment, settings.method.layer});
+    const auto session = open_session({source, segment.version, segment.segment, method.layer});
     if (!session) return fail(session.error());
-    const auto scout = make_scout(*session, query_camera, settings);
+    const auto scout = method.make_scout(*session, query_camera, ScoutSettings());
     if (!scout) return fail(scout.error());
     FeatureExtractor extractor(session->feature);
     for (std::size_t i = 0; i < drive->frames.size(); i += every) {

@@ -1,5 +1,5 @@
 // Whole maps of a street that the simulator drives, as milepost-mapper makes them.
-#include "mapper/build/build_map.h"
+#include "mapper/pipeline/build_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

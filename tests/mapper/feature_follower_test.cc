@@ -1,4 +1,4 @@
-#include "mapper/follow/feature_follower.h"
+#include "mapper/tracklets/feature_follower.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "mapper/follow/motion.h"
+#include "mapper/tracklets/motion.h"
 
 namespace milepost {
 namespace {

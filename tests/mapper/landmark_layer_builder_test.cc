@@ -1,4 +1,4 @@
-#include "mapper/build/landmark_layer_builder.h"
+#include "mapper/pipeline/landmark_layer_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

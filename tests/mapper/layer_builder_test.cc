@@ -1,4 +1,4 @@
-#include "mapper/build/layer_builder.h"
+#include "mapper/pipeline/layer_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

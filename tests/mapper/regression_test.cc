@@ -1,4 +1,4 @@
-#include "mapper/regress/regression.h"
+#include "mapper/tracklets/regression.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

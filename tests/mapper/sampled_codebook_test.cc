@@ -1,4 +1,4 @@
-#include "mapper/build/sampled_codebook.h"
+#include "mapper/pipeline/sampled_codebook.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "mapper/tiles/tile_assembler.h"
+#include "mapper/tracklets/tile_assembler.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -26,10 +26,16 @@ MAY_INCLUDE = {
     "schema/drive/": [BASE, "schema/geo/", "schema/drive/"],
     "mapper/": ["mapper/", "schema/"],
     "server/": ["server/", BASE, COMMAND, "schema/store/", "schema/geo/"],
+    "client/cache/": ["client/cache/", BASE, "schema/store/"],
+    "client/fetch/": ["client/fetch/", "client/cache/", BASE, "schema/command/version.h",
+                      "schema/geo/", "schema/store/", "schema/tile/"],
+    "client/localize/": ["client/localize/", "client/fetch/", BASE, "schema/geo/", "schema/tile/",
+                         "schema/feature/"],
+    "client/global/": ["client/global/", BASE, "schema/geo/", "schema/tile/"],
+    "client/evaluate/report/": ["client/", "schema/"],
+    "client/evaluate/": ["client/", "schema/"],
     "client/cli/": ["client/", "schema/"],
     "client/main.cc": ["client/", "schema/"],
-    "client/": ["client/", BASE, "schema/command/version.h", "schema/geo/", "schema/store/",
-                "schema/tile/", "schema/feature/"],
 }
 
 # Library -> parts of the tree whose files must not reach it, through no chain of our headers.

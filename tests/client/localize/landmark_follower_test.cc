@@ -38,7 +38,7 @@ class FollowingByLandmarks : public ::testing::Test {
 
   static LocalizerSettings settings() {
     LocalizerSettings settings = testing::settings_without_prefetcher();
-    settings.window.reach = {5, 5};  // so the source is asked often
+    settings.scout.reach = {5, 5};  // so the source is asked often
     return settings;
   }
 
@@ -119,7 +119,9 @@ TEST_F(FollowingByLandmarks, FromBeforeTheRoadBegins) {
 
 TEST_F(FollowingByLandmarks, AtAnEndOfTheMapSigmaIsWider) {
   LocalizerSettings everywhere_alike = settings();
-  std::get<LandmarkMethod>(everywhere_alike.method.how).end_variance = 0;
+  LandmarkMethod by_landmarks;
+  by_landmarks.end_variance = 0;
+  everywhere_alike.method = landmark_method(by_landmarks);
   Localizer other(map_, road().query_camera(), everywhere_alike);
   std::mt19937 random(3);
   std::map<double, double> ratios;

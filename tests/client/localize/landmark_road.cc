@@ -163,7 +163,6 @@ const LandmarkRoad& shared_road() {
 
 LocalizerSettings settings_without_prefetcher() {
   LocalizerSettings settings;
-  settings.method = *method_named(kDefaultMethod);
   settings.prefetch_m = 0;
   return settings;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "client/evaluate/baselines/methods.h"
 #include "client/fetch/nearby.h"
 #include "schema/tile/codec.h"
 #include "tests/client/localize/layer_of_tiles.h"
@@ -144,7 +145,7 @@ class LocalizerAndReceiver : public ::testing::Test {
     LocalizerSettings settings;
     settings.method = *method_named("wisurf");
     settings.prefetch_m = 0;
-    settings.window.reach = {0, 10};
+    settings.scout.reach = {0, 10};
     return settings;
   }
 

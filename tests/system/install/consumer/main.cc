@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "client/fetch/http_source.h"
-#include "client/find/finder.h"
+#include "client/global/finder.h"
 #include "client/localize/localizer.h"
 #include "schema/feature/extractor.h"
 
@@ -24,7 +24,6 @@ bool is_told_that_the_server_is_not_there(const std::string& work_directory) {
   }
 
   milepost::LocalizerSettings settings;
-  settings.method = milepost::method_named(milepost::kDefaultMethod).value();
   milepost::Localizer localizer(std::shared_ptr<milepost::MapSource>(std::move(source).value()),
                                 {.width_px = 64, .focal_x_px = 50, .focal_y_px = 50}, settings);
   milepost::FeatureSet features;

@@ -1,0 +1,200 @@
+#include <algorithm>
+#include <cmath>
+
+#include "client/evaluate/baselines/frame_window.h"
+#include "client/evaluate/baselines/methods.h"
+#include "client/evaluate/baselines/paper_evidence.h"
+#include "client/evaluate/baselines/scale_change.h"
+#include "client/evaluate/baselines/warping.h"
+#include "client/localize/follower.h"
+
+namespace milepost {
+namespace {
+
+constexpr double kLogBayesFactorOfCost = 20;  // of the first look's
+
+// A query frame against the map's frames of a band.
+struct Comparison {
+  std::vector<FrameCost> costs;  // one a frame of the map, by ascending along
+  std::vector<int> matches;      // one a frame of the map
+  bool compared = false;         // with one of them at least
+};
+
+// The costs that the best path took, frame by frame.
+class PathCosts {
+ public:
+  void add(double cost) {
+    sum_ += cost;
+    square_ += cost * cost;
+    ++frames_;
+  }
+
+  // Of the costs, with one frame more that is off by their mean: the variance of few is unknown.
+  // REQUIRES: a frame.
+  double variance() const {
+    const double mean = sum_ / frames_;
+    return std::max(0.0, square_ - sum_ * mean + mean * mean) / frames_;
+  }
+
+ private:
+  double sum_ = 0;
+  double square_ = 0;
+  double frames_ = 0;
+};
+
+class WarpFollower : public Follower {
+ public:
+  WarpFollower(const SegmentSession& session, const QueryCamera& camera,
+               const ScoutSettings& settings, const WarpMethod& method)
+      : session_(session),
+        camera_(camera),
+        method_(method),
+        window_(session.layer, settings.reach, method.index) {}
+
+  // The frames that match at the best place of `around`, and its cost; nothing where there is no
+  // frame to compare with.
+  struct Begun {
+    int matches = 0;
+    double cost = 0;
+  };
+  Result<std::optional<Begun>> begin(SeenFrame& frame, const AlongRange& around) {
+    const Result<Comparison> seen = compare(frame, around);
+    if (!seen) return seen.error();
+    if (!seen->compared) return std::optional<Begun>();
+    row_ = first_row(seen->costs);
+    const double cost = best_end(row_).cost;
+    settle(frame.timestamp_s());
+    return std::optional(Begun{matches_at_best(*seen), cost});
+  }
+
+  double expected_along_m(double /*timestamp_s*/) const override { return best_end(row_).along_m; }
+
+  Followed follow(SeenFrame& frame) override {
+    const double max_step_m =
+        std::max(method_.max_speed_mps * (frame.timestamp_s() - latest_s_), method_.min_step_m);
+    const double latest_m = best_end(row_).along_m;
+    const AlongRange band = {latest_m - method_.band_m, latest_m + max_step_m + method_.band_m};
+    const Result<Comparison> seen = compare(frame, band);
+    if (!seen) return {.failure = seen.error()};
+    WarpRow next = next_row(row_, seen->costs, max_step_m);
+    if (!seen->compared || next.empty()) return {.log_bayes_factor = evidence_.of_frame(false)};
+    row_ = std::move(next);
+    settle(frame.timestamp_s());
+    return {.measured = true,
+            .matches = matches_at_best(*seen),
+            .log_bayes_factor = evidence_.of_frame(true)};
+  }
+
+  // As far off as frames lie apart, and as the ends of paths that are as good as the best within
+  // what its cost varies from frame to frame.
+  TrackedPosition position() const override {
+    const WarpCell& best = best_end(row_);
+    const double variance = path_costs_.variance();
+    double weights = 0;
+    double square_m2 = 0;
+    for (const WarpCell& cell : row_) {
+      const double worse = cell.cost - best.cost;
+      const double weight = worse > 0 ? std::exp(-worse * worse / (4 * variance)) : 1;
+      weights += weight;
+      square_m2 += weight * (cell.along_m - best.along_m) * (cell.along_m - best.along_m);
+    }
+    return {best.along_m,
+            std::hypot(spacing_m() / std::sqrt(12.0), std::sqrt(square_m2 / weights))};
+  }
+
+ private:
+  Result<Comparison> compare(SeenFrame& frame, const AlongRange& band) {
+    const Status covered = window_.cover(band);
+    if (!covered.ok()) return covered.error();
+    Comparison comparison;
+    for (const IndexedFrame& map_frame : window_.frames()) {
+      const double along_m = map_frame.frame().along_m;
+      if (!band.contains(along_m)) continue;
+      int matches = 0;
+      const std::optional<double> cost = cost_of(frame, map_frame, matches);
+      comparison.compared = comparison.compared || cost;
+      comparison.costs.push_back({along_m, cost.value_or(method_.unmatched_cost)});
+      comparison.matches.push_back(matches);
+    }
+    return comparison;
+  }
+
+  std::optional<double> cost_of(SeenFrame& frame, const IndexedFrame& map_frame,
+                                int& matches) const {
+    if (method_.comparison == FrameComparison::image) {
+      if (!frame.frame().image || !map_frame.frame().image) return std::nullopt;
+      return image_distance(frame.frame().image(), *map_frame.frame().image);
+    }
+    const double query_focal_px = std::sqrt(camera_.focal_x_px * camera_.focal_y_px);
+    const auto change =
+        scale_change(frame.features(session_.feature), session_.map_focal_px / query_focal_px,
+                     camera_.width_px, map_frame, method_.scale);
+    if (!change) return std::nullopt;
+    matches = change->matches;
+    return change->mean;
+  }
+
+  // Takes the new row's best cost off all of it, which changes no comparison and keeps sums small.
+  void settle(double timestamp_s) {
+    const double least = best_end(row_).cost;
+    for (WarpCell& cell : row_) cell.cost -= least;
+    path_costs_.add(least);
+    latest_s_ = timestamp_s;
+  }
+
+  int matches_at_best(const Comparison& seen) const {
+    const auto found = std::ranges::find(seen.costs, best_end(row_).along_m, &FrameCost::along_m);
+    return seen.matches[found - seen.costs.begin()];
+  }
+
+  double spacing_m() const {
+    if (row_.size() < 2) return 0;
+    return (row_.back().along_m - row_.front().along_m) / static_cast<double>(row_.size() - 1);
+  }
+
+  const SegmentSession& session_;
+  QueryCamera camera_;
+  WarpMethod method_;
+  FrameWindow window_;
+  WarpRow row_;  // of the latest frame; its least cost is 0
+  PathCosts path_costs_;
+  double latest_s_ = 0;
+  PaperEvidence evidence_;
+};
+
+class WarpScout : public Scout {
+ public:
+  WarpScout(const SegmentSession& session, const QueryCamera& camera, ScoutSettings settings,
+            const WarpMethod& method)
+      : session_(session), camera_(camera), settings_(std::move(settings)), method_(method) {}
+
+  Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
+    auto follower = std::make_unique<WarpFollower>(session_, camera_, settings_, method_);
+    const auto begun = follower->begin(frame, around);
+    if (!begun) return begun.error();
+    std::vector<Sighting> sightings;
+    if (*begun)
+      sightings.push_back(
+          {std::move(follower), (*begun)->matches,
+           PaperEvidence::kLogBayesFactor - kLogBayesFactorOfCost * (*begun)->cost});
+    return sightings;
+  }
+
+ private:
+  const SegmentSession& session_;
+  QueryCamera camera_;
+  ScoutSettings settings_;
+  WarpMethod method_;
+};
+
+}  // namespace
+
+MakeScout warp_scouts(const WarpMethod& method) {
+  return [method](const SegmentSession& session, const QueryCamera& camera,
+                  const ScoutSettings& settings) -> Result<std::unique_ptr<Scout>> {
+    if (session.items != LayerItems::frames) return unusable_items(session);
+    return std::unique_ptr<Scout>(std::make_unique<WarpScout>(session, camera, settings, method));
+  };
+}
+
+}  // namespace milepost

@@ -1,0 +1,36 @@
+#include "client/evaluate/drive_playback.h"
+
+#include <algorithm>
+
+namespace milepost {
+namespace {
+
+// Drives write receiver times to the millisecond and frame times finer.
+constexpr double kClockRoundingS = 0.001;
+
+// Takes from the front of `left` what is not later than that.
+template <class Reading>
+std::span<const Reading> taken_until(double timestamp_s, std::span<const Reading>& left) {
+  const auto end = std::ranges::upper_bound(left, timestamp_s, {}, &Reading::timestamp_s);
+  const auto count = static_cast<std::size_t>(end - left.begin());
+  const std::span<const Reading> taken = left.first(count);
+  left = left.subspan(count);
+  return taken;
+}
+
+}  // namespace
+
+QueryCamera query_camera_of(const Camera& camera) {
+  return {camera.width_px,   camera.height_px,      camera.focal_x_px,
+          camera.focal_y_px, camera.principal_x_px, camera.principal_y_px};
+}
+
+std::span<const GpsFix> SensorLog::gps_until(double timestamp_s) {
+  return taken_until(timestamp_s + kClockRoundingS, gps_);
+}
+
+std::span<const Odometry> SensorLog::odometry_until(double timestamp_s) {
+  return taken_until(timestamp_s, odometry_);
+}
+
+}  // namespace milepost

@@ -1,0 +1,83 @@
+#include "client/evaluate/find_drive.h"
+
+#include <optional>
+
+#include "client/evaluate/drive_playback.h"
+#include "client/localize/localizer.h"
+#include "schema/drive/frame_image.h"
+#include "schema/drive/pinhole.h"
+#include "schema/feature/extractor.h"
+
+namespace milepost {
+namespace {
+
+// The route localizer, which hears of the finder what it else hears of a receiver.
+class Successor {
+ public:
+  Successor(std::shared_ptr<MapSource> source, const Camera& camera)
+      : localizer_(std::move(source), query_camera_of(camera), LocalizerSettings()) {}
+
+  void observe(const Odometry& wheels) { localizer_.observe(wheels); }
+
+  Result<FrameFix> localize(const Frame& frame, const cv::Mat& gray, const FindFix& found) {
+    const Stopwatch watch;
+    if (found.status == FindStatus::tracking) {
+      localizer_.observe(
+          CoarsePosition{frame.timestamp_s, found.position, found.sigma_m, found.heading_deg});
+    }
+    std::optional<FeatureSet> features;
+    const QueryFrame query{frame.timestamp_s,
+                           [&](const FeatureParameters& parameters) -> const FeatureSet& {
+                             if (!features) features = FeatureExtractor(parameters).extract(gray);
+                             return *features;
+                           }};
+    Result<Fix> fix = localizer_.localize(query);
+    if (!fix) return fix.error();
+    return FrameFix{frame.filename, std::move(*fix), watch.ms(), {}};
+  }
+
+ private:
+  Localizer localizer_;
+};
+
+}  // namespace
+
+Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls,
+                              const FindRun& run) {
+  if (drive.odometry.empty()) {
+    return Error{ErrorCode::invalid_input, (drive.folder / "odometry.csv").string(),
+                 "there is nothing that says how the vehicle moved",
+                 "add what its wheels said (timestamp_s,speed_mps,yaw_rate_dps)"};
+  }
+  Finder finder(walls, pinhole_of(drive.camera), run.finder);
+  std::optional<Successor> successor;
+  if (run.localizer_source) successor.emplace(run.localizer_source, drive.camera);
+
+  FoundDrive found;
+  const FrameReader frames(drive);
+  SensorLog sensors(drive);
+  for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+    const Frame& frame = drive.frames[i];
+    const Result<cv::Mat> gray = frames.gray(i);
+    if (!gray) return gray.error();
+    for (const Odometry& wheels : sensors.odometry_until(frame.timestamp_s)) {
+      finder.observe(wheels);
+      if (successor) successor->observe(wheels);
+    }
+    const Stopwatch watch;
+    const FindFix fix = finder.find(*gray, frame.timestamp_s);
+    found.frames.push_back({frame.filename, fix, watch.ms()});
+    if (successor) {
+      Result<FrameFix> localized = successor->localize(frame, *gray, fix);
+      if (!localized) return localized.error();
+      found.localized.push_back(std::move(*localized));
+    }
+    if (!run.on_frame(i, fix, finder)) {
+      return Error{ErrorCode::cancelled, drive.folder.string(),
+                   "stopped on request, nothing was written", ""};
+    }
+  }
+  return found;
+}
+
+}  // namespace milepost

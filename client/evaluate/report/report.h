@@ -1,0 +1,25 @@
+// The report of an evaluation: one HTML file that needs nothing else.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/evaluate/evaluation.h"
+#include "schema/drive/drive.h"
+
+namespace milepost {
+
+struct ReportInput {
+  std::string map_name;    // NAME (build BUILD), for the heading
+  std::string map_source;  // URL of the server or path of the file
+  const Drive* drive = nullptr;
+  std::vector<GeoPoint> segment_line;  // of the segment driven longest; may be empty
+  std::string segment;
+  double segment_length_m = 0;
+  std::vector<MethodEvaluation> methods;  // the same drive by one method or more
+};
+
+// The whole document, UTF-8.
+std::string report_html(const ReportInput& input);
+
+}  // namespace milepost

@@ -1,0 +1,22 @@
+// The figures of the report. Each can tell what it shows even where there is nothing to draw.
+#pragma once
+
+#include "client/evaluate/report/report_page.h"
+#include "client/evaluate/report/report_series.h"
+
+namespace milepost {
+
+// Along the route (report_route.cc). REQUIRES: there is a method.
+Figure error_figure(const ReportSeries& series);
+Figure lateral_figure(const ReportSeries& all);  // of the methods that know their lateral
+Figure matches_figure(const ReportSeries& series);
+Figure latency_figure(const ReportSeries& series);
+
+// How errors spread (report_spread.cc). REQUIRES: there is a method.
+Figure histogram_figure(const ReportSeries& series);
+Figure cumulative_figure(const ReportSeries& series);
+
+// In plan view (report_map.cc). REQUIRES: there is a method.
+Figure map_figure(const ReportInput& input, const ReportSeries& series);
+
+}  // namespace milepost

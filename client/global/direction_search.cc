@@ -1,0 +1,87 @@
+#include "client/global/direction_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "schema/geo/geodesy.h"
+
+namespace milepost {
+namespace {
+
+constexpr int kRefinements = 15;
+constexpr double kMinMeetingAngleRad = 0.5 * kRadPerDeg;
+
+// How much a circle tells that fits: minus the logarithm of the share of all turns about its middle
+// that would have fitted as well.
+double surprise(const GreatCircle& circle) {
+  const double fitting_share = 2 * kMaxMisfitSigmas * circle.turn_sigma_rad / std::numbers::pi;
+  return std::max(0.0, -std::log(fitting_share));
+}
+
+// Of the Geman-McClure loss, as a share of the weight at no misfit.
+double robust_weight(double misfit) {
+  const double falloff = 1 / (1 + misfit * misfit / (kMaxMisfitSigmas * kMaxMisfitSigmas / 4));
+  return falloff * falloff;
+}
+
+}  // namespace
+
+bool Zone::contains(const Eigen::Vector3d& direction) const {
+  const double cosine = std::abs(axis.dot(direction));
+  return cosine <= std::cos(min_rad) && cosine >= std::cos(max_rad);
+}
+
+double misfit_sigmas(const GreatCircle& circle, const Eigen::Vector3d& direction) {
+  return std::abs(circle.normal.dot(direction)) / circle.sigma_rad(direction);
+}
+
+double evidence(std::span<const GreatCircle> circles, const Eigen::Vector3d& direction) {
+  double sum = 0;
+  for (const GreatCircle& circle : circles) {
+    const double part = misfit_sigmas(circle, direction) / kMaxMisfitSigmas;
+    if (part < 1) sum += surprise(circle) * (1 - part * part);
+  }
+  return sum;
+}
+
+std::optional<Eigen::Vector3d> strongest_direction(
+    std::span<const GreatCircle> circles, std::size_t pairs_of,
+    const std::function<bool(const Eigen::Vector3d&)>& is_allowed) {
+  std::optional<Eigen::Vector3d> strongest;
+  double most = 0;
+  const auto paired = circles.first(std::min(pairs_of, circles.size()));
+  for (const Eigen::Vector3d& point : intersections(paired, kMinMeetingAngleRad)) {
+    if (!is_allowed(point)) continue;
+    const double told = evidence(circles, point);
+    if (told <= most) continue;
+    most = told;
+    strongest = point;
+  }
+  return strongest;
+}
+
+Eigen::Vector3d refined_direction(std::span<const GreatCircle> circles,
+                                  std::span<const SquareTo> knowledge,
+                                  const Eigen::Vector3d& start) {
+  Eigen::Vector3d direction = start;
+  for (int round = 0; round < kRefinements; ++round) {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    for (const GreatCircle& circle : circles) {
+      const double sigma = circle.sigma_rad(direction);
+      const double weight = robust_weight(circle.normal.dot(direction) / sigma);
+      information += weight / (sigma * sigma) * circle.normal * circle.normal.transpose();
+    }
+    for (const SquareTo& known : knowledge) {
+      information += known.axis * known.axis.transpose() / (known.sigma_rad * known.sigma_rad);
+    }
+    const Eigen::Vector3d least =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
+    direction = least.dot(start) < 0 ? Eigen::Vector3d(-least) : least;
+  }
+  return direction;
+}
+
+}  // namespace milepost

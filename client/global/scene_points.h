@@ -1,0 +1,75 @@
+// Points of the surroundings, seen from a moving camera whose wheels tell how far it went: what
+// stands where, without any map.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "client/global/camera_motion.h"
+#include "schema/geo/camera_pose.h"
+
+namespace milepost {
+
+// In the camera frame: x to the right, y down, z forward, metres.
+struct ScenePoint {
+  Eigen::Vector3d camera_m;
+  double range_sigma_m = 0;  // along the ray
+};
+
+struct ScenePointSettings {
+  int features = 1200;        // ORB features of a frame
+  double pixel_sigma_px = 1;  // of a feature's place
+  double min_step_m = 0.4;    // a frame nearer to the last one that was used adds nothing
+  double min_step_rad = 0.03;
+  double max_sigma_part = 0.2;  // of its range; points known worse are left out
+};
+
+// Follows features by their descriptors along the lines that the motion allows, and triangulates
+// each from all frames that saw it. Not safe to use from several threads at once.
+class ScenePointTracker {
+ public:
+  ScenePointTracker(const Pinhole& view, const ScenePointSettings& settings);
+
+  // The points seen in the frame; none in one that came too early to add anything.
+  // `motion` is that since the last call. REQUIRES: `gray` is CV_8UC1 and not empty.
+  std::vector<ScenePoint> observe(const cv::Mat& gray, const WheelMotion& motion);
+
+ private:
+  using Descriptor = std::array<std::uint64_t, 4>;
+  struct Feature {
+    Eigen::Vector3d ray;  // z = 1
+    Descriptor descriptor{};
+  };
+  // From where and in which direction, in the frame of the first camera.
+  struct Sight {
+    Eigen::Vector3d from_m;
+    Eigen::Vector3d direction;  // unit
+  };
+  struct Track {
+    Feature last;
+    std::vector<Sight> sights;
+  };
+  struct Match {
+    std::size_t track = 0;
+    std::size_t feature = 0;
+  };
+
+  std::vector<Feature> features_of(const cv::Mat& gray) const;
+  std::vector<Match> matches_of(const std::vector<Feature>& features,
+                                const CameraMotion& motion) const;
+  void follow(const std::vector<Feature>& features, const CameraMotion& wheels);
+  std::vector<ScenePoint> triangulated() const;
+
+  Pinhole view_;
+  ScenePointSettings settings_;
+  WheelMotion since_last_;  // frame that was used
+  Eigen::Matrix3d first_from_camera_ = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d camera_m_ = Eigen::Vector3d::Zero();  // in the first camera's frame
+  std::vector<Track> tracks_;                           // of the last frame's features
+};
+
+}  // namespace milepost

@@ -1,0 +1,226 @@
+// The finder: what it makes of walls, wheels and its start where its frames show nothing, and of a
+// wall that they show.
+#include "client/global/finder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/client/global/painted_wall.h"
+
+namespace milepost {
+namespace {
+
+using testing::kView;
+using testing::kWallM;
+
+const GeoPoint kPlace{49, 8.4, 0};
+
+// A point so far east and north of kPlace.
+GeoPoint beside(double east_m, double north_m) {
+  return LocalFrame(kPlace).geo_from_enu({east_m, north_m, 0});
+}
+
+Wall wall(double east_m, double north_m, double end_east_m, double end_north_m, double sigma_m) {
+  const GeoPoint begin = beside(east_m, north_m);
+  const GeoPoint end = beside(end_east_m, end_north_m);
+  return {
+      {begin.latitude_deg, begin.longitude_deg}, {end.latitude_deg, end.longitude_deg}, sigma_m};
+}
+
+// Two walls at the ends of 200 x 100 m, with nothing in between.
+const std::vector<Wall> kWalls = {wall(-100, -50, -100, 50, 0.3), wall(100, -50, 100, 50, 0.7)};
+
+const cv::Mat& blank() {
+  static const cv::Mat image(500, 600, CV_8UC1, cv::Scalar(90));
+  return image;
+}
+
+FinderSettings starting_at(double east_m, double north_m, double sigma_m) {
+  FinderSettings settings;
+  settings.start = FindStart{beside(east_m, north_m), sigma_m, 90};
+  return settings;
+}
+
+// The box around all particles, about the finder's origin.
+PlanBox box_around(const ParticleCloud& cloud) {
+  PlanBox box{cloud.front().pose.enu_m, cloud.front().pose.enu_m};
+  for (const Particle& particle : cloud) {
+    box.min_m = box.min_m.cwiseMin(particle.pose.enu_m);
+    box.max_m = box.max_m.cwiseMax(particle.pose.enu_m);
+  }
+  return box;
+}
+
+TEST(Finder, HasTheWallsInMetresAboutTheirMiddle) {
+  const Finder finder(kWalls, kView, {});
+  EXPECT_LT(geodesic_distance_m(finder.origin(), kPlace), 0.01);
+  EXPECT_EQ(finder.origin().altitude_m, 0);
+  ASSERT_EQ(finder.walls().walls().size(), 2U);
+  const PlanWall& second = finder.walls().walls()[1];
+  EXPECT_LT((second.begin_m - Eigen::Vector2d(100, -50)).norm(), 0.01);
+  EXPECT_LT((second.end_m - Eigen::Vector2d(100, 50)).norm(), 0.01);
+  EXPECT_EQ(second.sigma_m, 0.7);
+}
+
+TEST(Finder, TheMiddleOfWallsOnBothSidesOf180IsBetweenThem) {
+  const std::vector<Wall> walls = {{{-16.5, 179.999}, {-16.4999, 179.999}, 0.3},
+                                   {{-16.5, -179.997}, {-16.4999, -179.997}, 0.3}};
+  const Finder finder(walls, kView, {});
+  EXPECT_LT(geodesic_distance_m(finder.origin(), {-16.49995, -179.999, 0}), 0.01);
+  const PlanBox box = finder.walls().bounds();
+  EXPECT_NEAR((box.max_m - box.min_m).x(), 0.004 * 106756, 1);
+}
+
+TEST(Finder, WithoutAnyIdeaItLooksAboutAllWalls) {
+  FinderSettings settings;
+  settings.particles = 4000;
+  Finder finder(kWalls, kView, settings);
+  EXPECT_EQ(finder.particles().size(), 4000U);
+  const PlanBox box = box_around(finder.particles());
+  EXPECT_NEAR(box.min_m.x(), -110, 1);
+  EXPECT_NEAR(box.max_m.x(), 110, 1);
+  EXPECT_NEAR(box.min_m.y(), -60, 1);
+  EXPECT_NEAR(box.max_m.y(), 60, 1);
+  // Of 220 x 120 m, seen from the place where the belief is densest: from the middle it is 51 m.
+  const FindFix fix = finder.find(blank(), 0);
+  EXPECT_EQ(fix.status, FindStatus::initializing);
+  EXPECT_GT(fix.sigma_m, 51);
+  EXPECT_LT(fix.mass, 0.1);
+}
+
+TEST(Finder, LooksInTheAreaThatIsGiven) {
+  FinderSettings settings;
+  const GeoPoint south_west = beside(-30, -20);
+  const GeoPoint north_east = beside(50, 10);
+  settings.area = Bounds{south_west.longitude_deg, south_west.latitude_deg,
+                         north_east.longitude_deg, north_east.latitude_deg};
+  const Finder finder(kWalls, kView, settings);
+  const PlanBox box = box_around(finder.particles());
+  EXPECT_NEAR(box.min_m.x(), -30, 1);
+  EXPECT_NEAR(box.max_m.x(), 50, 1);
+  EXPECT_NEAR(box.min_m.y(), -20, 1);
+  EXPECT_NEAR(box.max_m.y(), 10, 1);
+}
+
+// The paper's method draws those anew that leave the area: they would be anywhere.
+TEST(Finder, AKnownStartFarFromTheWallsIsInTheArea) {
+  FinderSettings settings = starting_at(-150, 20, 1);
+  settings.method = FindMethod::orientations;
+  Finder finder(kWalls, kView, settings);
+  finder.find(blank(), 0);
+  finder.observe({0, 4, 0});
+  finder.find(blank(), 1);
+  const PlanBox box = box_around(finder.particles());
+  EXPECT_GT(box.min_m.x(), -155);
+  EXPECT_LT(box.max_m.x(), -135);
+}
+
+TEST(Finder, ItsSeedDecides) {
+  FinderSettings settings;
+  const Eigen::Vector2d first = Finder(kWalls, kView, settings).particles().front().pose.enu_m;
+  EXPECT_EQ(Finder(kWalls, kView, settings).particles().front().pose.enu_m, first);
+  settings.seed = 2;
+  EXPECT_NE(Finder(kWalls, kView, settings).particles().front().pose.enu_m, first);
+}
+
+TEST(Finder, WhereNothingIsSeenItGoesAsTheWheelsSay) {
+  Finder finder(kWalls, kView, starting_at(-60, 20, 1));
+  finder.find(blank(), 100);
+  for (int i = 0; i < 10; ++i) {
+    finder.observe({100 + 0.5 * i, 8, 0});
+    finder.find(blank(), 100.5 + 0.5 * i);
+  }
+  // 40 m to the east; then a curve of 90 degrees to the right, of 4 s.
+  for (int i = 0; i < 8; ++i) {
+    finder.observe({105 + 0.5 * i, 4, 22.5});
+    finder.find(blank(), 105.5 + 0.5 * i);
+  }
+  const FindFix fix = finder.find(blank(), 109.001);
+  EXPECT_EQ(fix.timestamp_s, 109.001);
+  const double radius_m = 16 / (90 * kRadPerDeg);
+  EXPECT_LT(geodesic_distance_m(fix.position, beside(-20 + radius_m, 20 - radius_m)), 1);
+  EXPECT_EQ(fix.position.altitude_m, 0);
+  EXPECT_NEAR(fix.heading_deg, 180, 2);
+  EXPECT_EQ(fix.status, FindStatus::initializing);
+  EXPECT_EQ(fix.explained, 0);
+}
+
+// What the walls' places and the mounting of the camera leave unknown is added.
+TEST(Finder, IsAsUnsureAsItsStartAtLeast) {
+  const auto first_fix = [](double sigma_m, double heading_sigma_deg) {
+    FinderSettings settings = starting_at(0, 0, sigma_m);
+    settings.start->heading_sigma_deg = heading_sigma_deg;
+    return Finder(kWalls, kView, settings).find(blank(), 0);
+  };
+  EXPECT_NEAR(first_fix(1.5, 4).sigma_m, std::hypot(1.5, 0.5), 0.1);
+  EXPECT_NEAR(first_fix(1.5, 4).heading_sigma_deg, std::hypot(4, 0.5), 0.3);
+  EXPECT_NEAR(first_fix(0.01, 0.01).sigma_m, 0.5, 0.01);
+  EXPECT_NEAR(first_fix(0.01, 0.01).heading_sigma_deg, 0.5, 0.01);
+  EXPECT_NEAR(first_fix(15, 4).sigma_m, 15, 1);  // more than its densest part has
+}
+
+TEST(Finder, AHeadingIsFrom0To360) {
+  FinderSettings settings = starting_at(0, 0, 1);
+  settings.start->heading_deg = -30;
+  EXPECT_NEAR(Finder(kWalls, kView, settings).find(blank(), 0).heading_deg, 330, 2);
+}
+
+// Straight to a wall, with wheels that tell too much: it is found, carried on where nothing is
+// seen, and as far from the wall as it is in truth.
+TEST(Finder, FindsItselfBeforeAWall) {
+  const std::vector<Wall> across = {wall(-30, 0, 30, 0, 0.1)};
+  FinderSettings settings = starting_at(0, -40, 1);
+  settings.start->heading_deg = 0;
+  settings.start->heading_sigma_deg = 1;
+  const GeoPoint south_west = beside(-40, -60);
+  const GeoPoint north_east = beside(40, 0);
+  settings.area = Bounds{south_west.longitude_deg, south_west.latitude_deg,
+                         north_east.longitude_deg, north_east.latitude_deg};
+  Finder finder(across, kView, settings);
+  const cv::Mat painted = testing::painted_wall();
+  FindFix fix;
+  int frame = 0;
+  for (double away_m = 40; away_m >= 6; away_m -= 2, ++frame) {
+    fix = finder.find(testing::seen(painted, kWallM - away_m, 0), frame);
+    finder.observe({static_cast<double>(frame), 2 * 1.03, 0});
+  }
+  EXPECT_EQ(fix.status, FindStatus::tracking);
+  EXPECT_GT(fix.mass, 0.8);
+  EXPECT_GT(fix.explained, 0.6);
+  EXPECT_LT(fix.sigma_m, 3);
+  const double north_m = LocalFrame(kPlace).enu_from_geo(fix.position).north_m;
+  EXPECT_NEAR(north_m, -6, 0.8);  // -5 by the wheels
+  EXPECT_EQ(finder.find(blank(), frame).status, FindStatus::predicted);
+}
+
+// Its wheels turn by 5 degrees more or less, for the root of each second; ours by one.
+TEST(Finder, ThePapersMethodIsLessSureOfTurns) {
+  const auto heading_sigma_deg = [](FindMethod method) {
+    FinderSettings settings = starting_at(-60, 0, 1);
+    settings.start->heading_sigma_deg = 0.1;
+    settings.method = method;
+    Finder finder(kWalls, kView, settings);
+    finder.find(blank(), 0);
+    finder.observe({0, 4, 0});
+    return finder.find(blank(), 4).heading_sigma_deg;
+  };
+  EXPECT_GT(heading_sigma_deg(FindMethod::orientations),
+            2 * heading_sigma_deg(FindMethod::combined));
+}
+
+TEST(Finder, AStartWithoutAHeadingMayLookAnywhere) {
+  FinderSettings settings = starting_at(10, 20, 2);
+  settings.start->heading_deg = std::nullopt;
+  const Finder finder(kWalls, kView, settings);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Particle& particle : finder.particles()) {
+    sum += direction_of(particle.pose.heading_rad);
+    EXPECT_LT((particle.pose.enu_m - Eigen::Vector2d(10, 20)).norm(), 12);
+  }
+  EXPECT_LT(sum.norm(), 0.1 * static_cast<double>(finder.particles().size()));
+}
+
+}  // namespace
+}  // namespace milepost
