@@ -76,30 +76,13 @@ std::optional<Bounds> area_of(const Options& options) {
   return Bounds{area[0], area[1], area[2], area[3]};
 }
 
-// An area that has all longitudes keeps them.
-Bounds with_view(const Bounds& area) {
-  const GeoPoint south_west =
-      LocalFrame({area.south_deg, area.west_deg, 0}).geo_from_enu({-kViewM, -kViewM, 0});
-  const GeoPoint north_east =
-      LocalFrame({area.north_deg, area.east_deg, 0}).geo_from_enu({kViewM, kViewM, 0});
-  Bounds view{south_west.longitude_deg, south_west.latitude_deg, north_east.longitude_deg,
-              north_east.latitude_deg};
-  if (area.east_deg - area.west_deg > 180 && view.crosses_180()) {
-    view.west_deg = -180;
-    view.east_deg = 180;
-  }
-  return view;
-}
-
-// The walls that are seen from the area. Errors: those of walls_in; not_found where the area has
-// none.
+// The walls that are seen from the area. Errors: those of walls_seen_from; not_found where the area
+// has none.
 Result<std::vector<Wall>> walls_to_search(MapSource& source, const MapDescription& map,
                                           const Options& options) {
   const Bounds area = area_of(options).value_or(map.bounds);
-  const Bounds view = with_view(area);
-  Result<std::vector<Wall>> walls = walls_in(source, map.version, kWallsLayer, view);
+  Result<std::vector<Wall>> walls = walls_seen_from(source, map.version, area, kViewM);
   if (!walls) return walls.error();
-  std::erase_if(*walls, [&](const Wall& wall) { return !bounds_of(wall).meets(view); });
   const auto is_inside = [&](const Wall& wall) { return bounds_of(wall).meets(area); };
   if (std::ranges::none_of(*walls, is_inside)) {
     return Error{ErrorCode::not_found, "map '" + map.version.map + "'",

@@ -32,16 +32,16 @@ std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOpt
 }
 
 Result<std::shared_ptr<MapSource>> open_source(const SourceOptions& options) {
-  Result<std::unique_ptr<MapSource>> source = [&] {
+  Result<std::shared_ptr<MapSource>> source = [&] {
     if (!options.map.empty()) return open_file_source(options.map);
     HttpSourceSettings settings;
     settings.server_url = options.server;
     settings.cache_directory = options.cache;
     settings.cache_limit_bytes = static_cast<std::uint64_t>(options.cache_limit_mb * 1e6);
+    settings.stopped = stop_requested;
     return open_http_source(settings);
   }();
-  if (!source) return source.error();
-  return std::shared_ptr<MapSource>(std::move(*source));
+  return source;
 }
 
 }  // namespace milepost

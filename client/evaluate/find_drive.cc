@@ -11,6 +11,8 @@
 namespace milepost {
 namespace {
 
+constexpr std::chrono::seconds kLongestWait(20);  // for the map, of one frame
+
 // The route localizer, which hears of the finder what it else hears of a receiver.
 class Successor {
  public:
@@ -20,11 +22,12 @@ class Successor {
   void observe(const Odometry& wheels) { localizer_.observe(wheels); }
 
   Result<FrameFix> localize(const Frame& frame, const cv::Mat& gray, const FindFix& found) {
-    const Stopwatch watch;
     if (found.status == FindStatus::tracking) {
       localizer_.observe(
           CoarsePosition{frame.timestamp_s, found.position, found.sigma_m, found.heading_deg});
     }
+    localizer_.wait_for_tiles(frame.timestamp_s, std::chrono::steady_clock::now() + kLongestWait);
+    const Stopwatch watch;
     std::optional<FeatureSet> features;
     const QueryFrame query{frame.timestamp_s,
                            [&](const FeatureParameters& parameters) -> const FeatureSet& {

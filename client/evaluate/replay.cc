@@ -96,9 +96,34 @@ void tell(SensorLog& sensors, double timestamp_s, std::vector<Runner>& runners) 
   }
 }
 
-// One frame through one localizer. A source that fails after the first fix costs this frame only.
-Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, Runner& runner,
-                           Replay& replay) {
+// How long a replay may wait for the map: for one frame, and in all.
+class TilePatience {
+ public:
+  void wait(Localizer& localizer, double timestamp_s, const Stopped& stopped) {
+    const Stopwatch watch;
+    const std::chrono::duration<double> longest(std::min(kLongestS, left_s_));
+    localizer.wait_for_tiles(
+        timestamp_s,
+        std::chrono::steady_clock::now() +
+            std::chrono::duration_cast<std::chrono::steady_clock::duration>(longest),
+        stopped);
+    left_s_ -= watch.ms() / 1000;
+  }
+
+  // Whether nothing was waited for that may come late: what failed so soon fails for good.
+  bool is_fresh() const { return left_s_ > kAllS - kAtOnceS; }
+
+ private:
+  static constexpr double kAllS = 60;
+  static constexpr double kLongestS = 40;
+  static constexpr double kAtOnceS = 3;
+  double left_s_ = kAllS;
+};
+
+// One frame through one localizer. A source that does not answer costs this frame only, but one
+// that is not there from the beginning.
+Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, const TilePatience& patience,
+                           Runner& runner, Replay& replay) {
   content.begin_turn();
   runner.estimates->clear();
   const QueryFrame query{frame.timestamp_s,
@@ -110,12 +135,13 @@ Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, Runner& ru
   Result<Fix> fix = runner.localizer.localize(query);
   const double latency_ms = watch.ms() + content.spared_ms();
   if (!fix) {
-    if (!runner.had_fix) return fix.error();
+    const bool may_come = fix.error().code == ErrorCode::unavailable && !patience.is_fresh();
+    if (!runner.had_fix && !may_come) return fix.error();
     replay.outage = fix.error();
-    Fix lost;
-    lost.timestamp_s = frame.timestamp_s;
-    lost.status = FixStatus::lost;
-    fix = lost;
+    Fix without_map;
+    without_map.timestamp_s = frame.timestamp_s;
+    without_map.status = runner.had_fix ? FixStatus::lost : FixStatus::initializing;
+    fix = without_map;
   }
   runner.had_fix = runner.had_fix || fix->along_m.has_value();
   if (runner.localizer.noted_error()) replay.outage = runner.localizer.noted_error();
@@ -151,14 +177,18 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
   FrameContent content;
   const FrameReader frames(drive);
   SensorLog sensors(drive);
+  TilePatience patience;
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     const Frame& frame = drive.frames[i];
     Result<cv::Mat> gray = frames.gray(i);
     if (!gray) return gray.error();
     content.set_frame(std::move(*gray));
     tell(sensors, frame.timestamp_s, runners);
+    for (Runner& runner : runners) {
+      patience.wait(runner.localizer, frame.timestamp_s, [&] { return !on_frame(i); });
+    }
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      Result<FrameFix> fix = run_frame(frame, content, runners[m], replay);
+      Result<FrameFix> fix = run_frame(frame, content, patience, runners[m], replay);
       if (!fix) return fix.error();
       replay.fixes[m].push_back(std::move(*fix));
     }

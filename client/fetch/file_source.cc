@@ -20,7 +20,7 @@ SegmentDescription description_of(const StoredSegment& stored) {
   return description;
 }
 
-class FileSource : public MapSource {
+class FileSource : public MapSource, public std::enable_shared_from_this<FileSource> {
  public:
   explicit FileSource(MapReader reader)
       : reader_(std::move(reader)), version_{reader_.file().stem().string(), reader_.build()} {}
@@ -98,6 +98,39 @@ class FileSource : public MapSource {
 
   SourceCounters counters() const override { return {}; }
 
+  Result<std::vector<TileEntry>> tile_index(const MapVersion& version, const std::string& segment,
+                                            const std::string& layer) override {
+    const std::lock_guard lock(mutex_);
+    const Status checked = check(version);
+    if (!checked.ok()) return checked.error();
+    return reader_.tile_index(segment, layer);
+  }
+
+  Result<std::optional<Bytes>> stored_tile(const MapVersion& version, const std::string& segment,
+                                           const std::string& layer,
+                                           const TileEntry& entry) override {
+    const std::lock_guard lock(mutex_);
+    const Status checked = check(version);
+    if (!checked.ok()) return checked.error();
+    Result<Bytes> frame = reader_.tile(segment, layer, entry.index);
+    if (!frame.ok()) return frame.error();
+    return std::optional<Bytes>(std::move(frame).value());
+  }
+
+  Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
+                      const std::string& layer, const std::vector<TileEntry>& tiles,
+                      const TileSink& take) override {
+    for (const TileEntry& entry : tiles) {
+      const auto tile = stored_tile(version, segment, layer, entry);
+      if (!tile.ok()) return {tile.error()};
+      take({entry.index, **tile});
+    }
+    return {};
+  }
+
+  // No call takes long.
+  std::shared_ptr<MapSource> until(Stopped /*stopped*/) override { return shared_from_this(); }
+
  private:
   Status check(const MapVersion& version) const {
     if (version == version_) return ok_status();
@@ -132,10 +165,10 @@ class FileSource : public MapSource {
 
 }  // namespace
 
-Result<std::unique_ptr<MapSource>> open_file_source(const std::filesystem::path& map_file) {
+Result<std::shared_ptr<MapSource>> open_file_source(const std::filesystem::path& map_file) {
   Result<MapReader> reader = MapReader::open(map_file);
   if (!reader.ok()) return reader.error();
-  return std::unique_ptr<MapSource>(std::make_unique<FileSource>(std::move(reader).value()));
+  return std::shared_ptr<MapSource>(std::make_shared<FileSource>(std::move(reader).value()));
 }
 
 }  // namespace milepost

@@ -8,6 +8,6 @@
 namespace milepost {
 
 // Errors: those of MapReader::open.
-Result<std::unique_ptr<MapSource>> open_file_source(const std::filesystem::path& map_file);
+Result<std::shared_ptr<MapSource>> open_file_source(const std::filesystem::path& map_file);
 
 }  // namespace milepost

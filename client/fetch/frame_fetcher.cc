@@ -18,52 +18,54 @@ CacheKey key_of(CacheKey layer_key, std::uint32_t number) {
 
 }  // namespace
 
-// The frames that a call collects.
-struct FrameFetcher::Collection {
-  const CacheKey& layer_key;
-  std::set<std::uint32_t> missing = {};
-  std::map<std::uint32_t, Bytes> frames = {};
-};
+std::optional<Bytes> FrameFetcher::find(const CacheKey& layer_key, const ExpectedFrame& frame) {
+  auto cached = cache_.find(key_of(layer_key, frame.number), frame.digest);
+  if (cached) ++from_cache_;
+  return cached;
+}
 
 Result<std::map<std::uint32_t, Bytes>> FrameFetcher::fetch(const CacheKey& layer_key,
                                                            const std::vector<ExpectedFrame>& wanted,
-                                                           const RequestFor& request_for) {
-  Collection collection{layer_key};
+                                                           const RequestFor& request_for,
+                                                           const Stopped& stopped) {
+  std::map<std::uint32_t, Bytes> frames;
+  std::set<std::uint32_t> missing;
   for (const ExpectedFrame& frame : wanted) {
-    if (auto cached = cache_.find(key_of(layer_key, frame.number), frame.digest)) {
-      collection.frames[frame.number] = std::move(*cached);
-      ++from_cache_;
+    if (auto cached = find(layer_key, frame)) {
+      frames[frame.number] = std::move(*cached);
     } else {
-      collection.missing.insert(frame.number);
+      missing.insert(frame.number);
     }
   }
-  while (!collection.missing.empty()) {
-    const Status fetched = with_retries(
-        requests_.retry(), [&] { return fetch_once(request_for(collection.missing), collection); });
+  const FrameSink take = [&](std::uint32_t number, const Bytes& frame) {
+    missing.erase(number);
+    frames[number] = frame;
+  };
+  while (!missing.empty()) {
+    const Status fetched = with_retries(requests_.retry(), stopped, [&] {
+      return fetch_once(layer_key, request_for(missing), take, stopped);
+    });
     if (!fetched.ok()) return fetched.error();
   }
-  return std::move(collection.frames);
+  return frames;
 }
 
-Attempt FrameFetcher::fetch_once(const FrameRequest& request, Collection& collection) {
-  const std::size_t missing_before = collection.missing.size();
-  FrameCutter cutter(request.url, request.expected, [&](std::uint32_t number, Bytes frame) {
-    take_from_server(number, std::move(frame), collection);
+Attempt FrameFetcher::fetch_once(const CacheKey& layer_key, const FrameRequest& request,
+                                 const FrameSink& take, const Stopped& stopped) {
+  bool advanced = false;
+  FrameCutter cutter(request.url, request.expected, [&](std::uint32_t number, const Bytes& frame) {
+    advanced = true;
+    ++from_server_;
+    cache_.store(key_of(layer_key, number), frame);
+    take(number, frame);
   });
-  HttpAnswer answer = requests_.get(request.url, bytes_of(request.expected),
-                                    [&](ByteView piece) { return cutter.take(piece); });
+  HttpAnswer answer = requests_.get(
+      request.url, bytes_of(request.expected), [&](ByteView piece) { return cutter.take(piece); },
+      stopped);
   if (answer.status.ok()) return {cutter.finish()};
   // Whole frames of an answer that broke off are kept, and the next request asks for the rest.
-  const bool advanced = collection.missing.size() < missing_before;
   if (advanced && answer.status.error().code == ErrorCode::unavailable) return {};
   return {std::move(answer.status), answer.retry_after_s};
-}
-
-void FrameFetcher::take_from_server(std::uint32_t number, Bytes frame, Collection& collection) {
-  ++from_server_;
-  cache_.store(key_of(collection.layer_key, number), frame);
-  collection.missing.erase(number);
-  collection.frames[number] = std::move(frame);
 }
 
 }  // namespace milepost

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -36,16 +37,20 @@ class FrameFetcher {
   // Errors: those of HttpAnswer; corrupt (an answer of other frames than `request_for` expects).
   Result<std::map<std::uint32_t, Bytes>> fetch(const CacheKey& layer_key,
                                                const std::vector<ExpectedFrame>& wanted,
-                                               const RequestFor& request_for);
+                                               const RequestFor& request_for,
+                                               const Stopped& stopped);
+
+  // The same of one request, from the server alone; each frame is handed over as it arrives.
+  using FrameSink = std::function<void(std::uint32_t number, const Bytes& frame)>;
+  Attempt fetch_once(const CacheKey& layer_key, const FrameRequest& request, const FrameSink& take,
+                     const Stopped& stopped);
+  // A frame of the cache; nothing where it is not there.
+  std::optional<Bytes> find(const CacheKey& layer_key, const ExpectedFrame& frame);
 
   std::uint64_t from_cache() const { return from_cache_; }
   std::uint64_t from_server() const { return from_server_; }
 
  private:
-  struct Collection;
-  Attempt fetch_once(const FrameRequest& request, Collection& collection);
-  void take_from_server(std::uint32_t number, Bytes frame, Collection& collection);
-
   ServerRequests& requests_;
   TileCache& cache_;
   std::atomic<std::uint64_t> from_cache_ = 0;

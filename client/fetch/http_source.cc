@@ -3,12 +3,10 @@
 #include <array>
 #include <atomic>
 #include <charconv>
-#include <chrono>
 #include <functional>
 #include <map>
 #include <mutex>
 #include <set>
-#include <thread>
 #include <utility>
 
 #include "client/cache/tile_cache.h"
@@ -96,16 +94,38 @@ class LineMemory {
   Lines lines_;
 };
 
+// What the callers of one source share.
+struct HttpShared {
+  HttpShared(std::string url, const HttpSourceSettings& settings, HttpSourceParts parts,
+             std::unique_ptr<TileCache> open_cache)
+      : base_url(std::move(url)),
+        steady_s(std::move(parts.steady_s)),
+        cache(std::move(open_cache)),
+        requests(std::move(parts.transport),
+                 {.attempts = settings.attempts, .sleep = std::move(parts.sleep)}),
+        fetcher(requests, *cache) {}
+
+  const std::string base_url;
+  const std::function<std::int64_t()> steady_s;
+  const std::unique_ptr<TileCache> cache;
+  ServerRequests requests;
+  FrameFetcher fetcher;
+  DocumentMemory<MapDescription> maps;
+  DocumentMemory<SegmentDocument> segments;
+  DocumentMemory<AreasDocument> areas;
+  LineMemory known_lines;
+  std::atomic<std::int64_t> server_away_until_s = 0;
+};
+
 class HttpSource : public MapSource {
  public:
-  HttpSource(std::string base_url, const HttpSourceSettings& settings, HttpSourceParts parts,
-             std::unique_ptr<TileCache> cache)
-      : base_url_(std::move(base_url)),
-        steady_s_(std::move(parts.steady_s)),
-        cache_(std::move(cache)),
-        requests_(std::move(parts.transport),
-                  {.attempts = settings.attempts, .sleep = std::move(parts.sleep)}),
-        fetcher_(requests_, *cache_) {}
+  HttpSource(std::shared_ptr<HttpShared> shared, Stopped stopped)
+      : shared_(std::move(shared)),
+        stopped_(std::move(stopped)),
+        base_url_(shared_->base_url),
+        cache_(*shared_->cache),
+        requests_(shared_->requests),
+        fetcher_(shared_->fetcher) {}
 
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                    double radius_m) override {
@@ -116,7 +136,7 @@ class HttpSource : public MapSource {
                             "&radius_m=" + digits_of(radius_m);
     const auto parse = [this, &url](const std::string& text) {
       auto segments = parse_nearby_document(text, url);
-      if (segments.ok()) known_lines_.forget();
+      if (segments.ok()) shared_->known_lines.forget();
       return segments;
     };
     return current_list<NearbySegment>(
@@ -133,24 +153,19 @@ class HttpSource : public MapSource {
   }
 
   Result<MapDescription> describe(const MapVersion& version) override {
-    const CacheKey key = CacheKey::map_document(version.map, version.build);
     const std::string url = map_url(version);
-    if (const auto cached = cache_->find(key)) {
-      auto known = parse_map_document(as_text(*cached), url, version.map);
-      if (known.ok() && known->version == version) return known;
-      cache_->remove(key);
-    }
-    MapDescription description;
-    const Status fetched = requests_.document(url, [&](const std::string& text) -> Status {
-      auto described = parse_map_document(text, url, version.map);
-      if (!described.ok()) return described.error();
-      if (described->version != version) return rebuilt(url, version, described->version);
-      cache_->store(key, as_bytes(text));
-      description = std::move(*described);
-      return ok_status();
-    });
-    if (!fetched.ok()) return fetched.error();
-    return description;
+    const auto parse = [&](std::string_view text,
+                           const std::string& where) -> Result<MapDescription> {
+      auto described = parse_map_document(text, where, version.map);
+      if (described.ok() && described->version != version) {
+        return rebuilt(url, version, described->version);
+      }
+      return described;
+    };
+    const auto document = document_at(
+        shared_->maps, CacheKey::map_document(version.map, version.build), url, parse, [] {});
+    if (!document.ok()) return document.error();
+    return **document;
   }
 
   Result<SegmentDescription> segment(const MapVersion& version,
@@ -166,11 +181,12 @@ class HttpSource : public MapSource {
     if (!index.ok()) return index.error();
     const std::vector<TileEntry> wanted = entries_meeting(**index, range);
     // Its document must not be forgotten before its tiles are.
-    cache_->touch(CacheKey::segment_document(version.map, version.build, segment));
+    cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
     const std::string tiles_url = segment_url(version, segment) + "/tiles";
     auto found = fetcher_.fetch(
         {version.map, version.build, segment, layer, 0}, expected_frames(wanted),
-        [&](const auto& missing) { return request_for_tiles(tiles_url, layer, **index, missing); });
+        [&](const auto& missing) { return request_for_tiles(tiles_url, layer, **index, missing); },
+        stopped_);
     if (!found.ok()) return found.error();
     std::vector<TileFrame> frames;
     frames.reserve(wanted.size());
@@ -188,12 +204,13 @@ class HttpSource : public MapSource {
     if (!index.ok()) return index.error();
     const std::vector<CellEntry> wanted = entries_meeting(**index, box);
     // The documents that lead to the cells must not be forgotten before them.
-    cache_->touch(CacheKey::areas_document(version.map, version.build));
-    cache_->touch(CacheKey::map_document(version.map, version.build));
+    cache_.touch(CacheKey::areas_document(version.map, version.build));
+    cache_.touch(CacheKey::map_document(version.map, version.build));
     const std::string layer_url = areas_url(version) + "/" + escaped_for_url(layer);
     auto found = fetcher_.fetch(
         {version.map, version.build, "", layer, 0}, expected_frames(wanted),
-        [&](const auto& missing) { return request_for_cells(layer_url, **index, missing); });
+        [&](const auto& missing) { return request_for_cells(layer_url, **index, missing); },
+        stopped_);
     if (!found.ok()) return found.error();
     std::vector<CellFrame> frames;
     frames.reserve(wanted.size());
@@ -210,9 +227,48 @@ class HttpSource : public MapSource {
     return bytes_of(**index);
   }
 
+  Result<std::vector<TileEntry>> tile_index(const MapVersion& version, const std::string& segment,
+                                            const std::string& layer) override {
+    const auto index = index_of(version, segment, layer);
+    if (!index.ok()) return index.error();
+    return **index;
+  }
+
+  Result<std::optional<Bytes>> stored_tile(const MapVersion& version, const std::string& segment,
+                                           const std::string& layer,
+                                           const TileEntry& entry) override {
+    return fetcher_.find({version.map, version.build, segment, layer, 0}, expected_frame(entry));
+  }
+
+  Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
+                      const std::string& layer, const std::vector<TileEntry>& tiles,
+                      const TileSink& take) override {
+    const auto index = index_of(version, segment, layer);
+    if (!index.ok()) return {index.error()};
+    // The documents that lead to the tiles must not be forgotten before them.
+    cache_.touch(CacheKey::map_document(version.map, version.build));
+    cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
+    std::set<std::uint32_t> missing;
+    for (const TileEntry& entry : tiles) missing.insert(entry.index);
+    const std::string tiles_url = segment_url(version, segment) + "/tiles";
+    return fetcher_.fetch_once(
+        {version.map, version.build, segment, layer, 0},
+        request_for_tiles(tiles_url, layer, **index, missing),
+        [&](std::uint32_t number, const Bytes& frame) {
+          take({number, frame});
+        },
+        stopped_);
+  }
+
+  std::shared_ptr<MapSource> until(Stopped stopped) override {
+    return std::make_shared<HttpSource>(shared_, [first = stopped_, second = std::move(stopped)] {
+      return is_stopped(first) || is_stopped(second);
+    });
+  }
+
   SourceCounters counters() const override {
     return {requests_.made(), requests_.bytes_received(), fetcher_.from_cache(),
-            fetcher_.from_server(), cache_->counters().failures};
+            fetcher_.from_server(), cache_.counters().failures};
   }
 
  private:
@@ -269,7 +325,7 @@ class HttpSource : public MapSource {
       const std::string& url, const std::function<std::vector<Item>()>& known_items,
       const std::function<Result<std::vector<Item>>(const std::string& text)>& parse) {
     std::vector<Item> items;
-    if (steady_s_() < server_away_until_s_) items = known_items();
+    if (shared_->steady_s() < shared_->server_away_until_s) items = known_items();
     if (!items.empty()) return items;
     const auto read = [&](const std::string& text) -> Status {
       Result<std::vector<Item>> parsed = parse(text);
@@ -277,10 +333,10 @@ class HttpSource : public MapSource {
       items = std::move(*parsed);
       return ok_status();
     };
-    const Status fetched = with_retries(requests_.retry(), [&] {
-      Attempt attempt = requests_.try_document(url, read);
+    const Status fetched = with_retries(requests_.retry(), stopped_, [&] {
+      Attempt attempt = requests_.try_document(url, read, stopped_);
       if (is_unavailable(attempt.status)) {
-        server_away_until_s_ = steady_s_() + kServerAway_s;
+        shared_->server_away_until_s = shared_->steady_s() + kServerAway_s;
         items = known_items();
       }
       return items.empty() ? attempt : Attempt{};
@@ -291,20 +347,20 @@ class HttpSource : public MapSource {
 
   std::vector<MapVersion> maps_known() {
     std::vector<MapVersion> maps;
-    for (const CachedDocument& cached : cache_->map_documents()) {
+    for (const CachedDocument& cached : cache_.map_documents()) {
       maps.push_back({cached.key.map, cached.key.build});
     }
     return maps;
   }
 
   std::vector<NearbySegment> segments_known_near(const GeoPoint& position, double radius_m) {
-    const auto lines = known_lines_.get_or_make([this] { return cached_lines(); });
+    const auto lines = shared_->known_lines.get_or_make([this] { return cached_lines(); });
     return lines_near(*lines, position, radius_m);
   }
 
   std::vector<KnownLine> cached_lines() {
     std::vector<KnownLine> lines;
-    for (const CachedDocument& cached : cache_->segment_documents()) {
+    for (const CachedDocument& cached : cache_.segment_documents()) {
       const MapVersion version{cached.key.map, cached.key.build};
       const auto document =
           parse_segment_document(cached.content, "the cache", version, cached.key.segment);
@@ -318,8 +374,9 @@ class HttpSource : public MapSource {
     const auto parse = [&](std::string_view text, const std::string& where) {
       return parse_segment_document(text, where, version, segment);
     };
-    return document_at(segments_, CacheKey::segment_document(version.map, version.build, segment),
-                       segment_url(version, segment), parse, [this] { known_lines_.forget(); });
+    return document_at(
+        shared_->segments, CacheKey::segment_document(version.map, version.build, segment),
+        segment_url(version, segment), parse, [this] { shared_->known_lines.forget(); });
   }
 
   // A document that never changes: from the memory, else from the cache, else from the server.
@@ -335,20 +392,23 @@ class HttpSource : public MapSource {
       memory.keep(key, shared);
       return Shared(shared);
     };
-    if (const auto cached = cache_->find(key)) {
+    if (const auto cached = cache_.find(key)) {
       Result<Document> document = parse(as_text(*cached), "the cache");
       if (document.ok()) return keep(std::move(*document));
-      cache_->remove(key);
+      cache_.remove(key);
     }
     Shared fetched_document;
-    const Status fetched = requests_.document(url, [&](const std::string& text) -> Status {
-      Result<Document> document = parse(text, url);
-      if (!document.ok()) return document.error();
-      cache_->store(key, as_bytes(text));
-      on_fetched();
-      fetched_document = keep(std::move(*document));
-      return ok_status();
-    });
+    const Status fetched = requests_.document(
+        url,
+        [&](const std::string& text) -> Status {
+          Result<Document> document = parse(text, url);
+          if (!document.ok()) return document.error();
+          cache_.store(key, as_bytes(text));
+          on_fetched();
+          fetched_document = keep(std::move(*document));
+          return ok_status();
+        },
+        stopped_);
     if (!fetched.ok()) return fetched.error();
     return fetched_document;
   }
@@ -367,8 +427,9 @@ class HttpSource : public MapSource {
     const auto parse = [&](std::string_view text, const std::string& where) {
       return parse_areas_document(text, where, version);
     };
-    const auto document = document_at(areas_, CacheKey::areas_document(version.map, version.build),
-                                      areas_url(version), parse, [] {});
+    const auto document =
+        document_at(shared_->areas, CacheKey::areas_document(version.map, version.build),
+                    areas_url(version), parse, [] {});
     if (!document.ok()) return document.error();
     return index_in(version, *document, **document, layer);
   }
@@ -390,36 +451,34 @@ class HttpSource : public MapSource {
                  "build the map with it"};
   }
 
-  const std::string base_url_;
-  const std::function<std::int64_t()> steady_s_;
-  const std::unique_ptr<TileCache> cache_;
-  ServerRequests requests_;
-  FrameFetcher fetcher_;
-  DocumentMemory<SegmentDocument> segments_;
-  DocumentMemory<AreasDocument> areas_;
-  LineMemory known_lines_;
-  std::atomic<std::int64_t> server_away_until_s_ = 0;
+  const std::shared_ptr<HttpShared> shared_;
+  const Stopped stopped_;
+  const std::string& base_url_;
+  TileCache& cache_;
+  ServerRequests& requests_;
+  FrameFetcher& fetcher_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<MapSource>> make_http_source(const HttpSourceSettings& settings,
+Result<std::shared_ptr<MapSource>> make_http_source(const HttpSourceSettings& settings,
                                                     HttpSourceParts parts) {
   Result<std::string> base_url = checked_server_url(settings.server_url);
   if (!base_url.ok()) return base_url.error();
   auto cache =
       TileCache::open({settings.cache_directory, settings.cache_limit_bytes, parts.steady_s});
   if (!cache.ok()) return cache.error();
-  return std::unique_ptr<MapSource>(std::make_unique<HttpSource>(
-      std::move(base_url).value(), settings, std::move(parts), std::move(cache).value()));
+  auto shared = std::make_shared<HttpShared>(std::move(base_url).value(), settings,
+                                             std::move(parts), std::move(cache).value());
+  return std::shared_ptr<MapSource>(
+      std::make_shared<HttpSource>(std::move(shared), settings.stopped));
 }
 
-Result<std::unique_ptr<MapSource>> open_http_source(const HttpSourceSettings& settings) {
+Result<std::shared_ptr<MapSource>> open_http_source(const HttpSourceSettings& settings) {
   HttpSourceParts parts;
-  parts.transport = make_curl_transport({settings.connect_timeout_s, settings.stall_timeout_s});
-  parts.sleep = [](double pause_s) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
-  };
+  parts.transport = make_curl_transport(
+      {settings.connect_timeout_s, settings.stall_timeout_s, settings.least_bytes_per_s});
+  parts.sleep = sleep_until_stopped;
   return make_http_source(settings, std::move(parts));
 }
 

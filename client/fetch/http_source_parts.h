@@ -13,13 +13,14 @@ namespace milepost {
 
 struct HttpSourceParts {
   std::unique_ptr<Transport> transport;
-  std::function<void(double pause_s)> sleep;  // between two attempts
+  // Between two attempts.
+  std::function<void(double pause_s, const Stopped& stopped)> sleep;
   // Seconds of a clock that nobody sets; called from any thread.
   std::function<std::int64_t()> steady_s = steady_seconds;
 };
 
 // Errors: as open_http_source, which puts in libcurl and the thread's sleep.
-Result<std::unique_ptr<MapSource>> make_http_source(const HttpSourceSettings& settings,
+Result<std::shared_ptr<MapSource>> make_http_source(const HttpSourceSettings& settings,
                                                     HttpSourceParts parts);
 
 }  // namespace milepost

@@ -1,16 +1,21 @@
 // Where the client gets its map from: a server, with a cache in between, or a map file.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "client/fetch/retry.h"
+#include "client/fetch/stopped.h"
 #include "schema/base/bytes.h"
 #include "schema/base/cell_grid.h"
 #include "schema/base/range.h"
 #include "schema/base/result.h"
 #include "schema/geo/geodesy.h"
+#include "schema/store/map_store.h"
 
 namespace milepost {
 
@@ -19,7 +24,7 @@ struct MapVersion {
   std::string map;
   std::string build;
 
-  friend bool operator==(const MapVersion&, const MapVersion&) = default;
+  friend auto operator<=>(const MapVersion&, const MapVersion&) = default;
 };
 
 struct MapDescription {
@@ -95,6 +100,25 @@ class MapSource {
   virtual Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
                                             const std::string& layer) = 0;
   virtual SourceCounters counters() const = 0;
+
+  // For those who bring tiles into memory one by one (TileProvider):
+  // Which tiles of a layer there are on a segment, ascending.
+  virtual Result<std::vector<TileEntry>> tile_index(const MapVersion& version,
+                                                    const std::string& segment,
+                                                    const std::string& layer) = 0;
+  // A tile that no server has to be asked for; nothing where it is not there.
+  virtual Result<std::optional<Bytes>> stored_tile(const MapVersion& version,
+                                                   const std::string& segment,
+                                                   const std::string& layer,
+                                                   const TileEntry& entry) = 0;
+  // Asks once for tiles that stand side by side in the index; each is handed over as it arrives.
+  // Ends well where some have, even if not all: the rest is asked for again.
+  using TileSink = std::function<void(const TileFrame& tile)>;
+  virtual Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
+                              const std::string& layer, const std::vector<TileEntry>& tiles,
+                              const TileSink& take) = 0;
+  // The same source for a caller whose calls end with `cancelled` soon after `stopped` says so.
+  virtual std::shared_ptr<MapSource> until(Stopped stopped) = 0;
 };
 
 }  // namespace milepost

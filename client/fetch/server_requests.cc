@@ -10,19 +10,23 @@ constexpr std::uint64_t kMaxDocumentBytes = 64ULL << 20U;
 }  // namespace
 
 HttpAnswer ServerRequests::get(const std::string& url, std::uint64_t limit_bytes,
-                               const BodySink& sink) {
+                               const BodySink& sink, const Stopped& stopped) {
   ++made_;
-  HttpAnswer answer = transport_->get(url, limit_bytes, sink);
+  HttpAnswer answer = transport_->get(url, limit_bytes, sink, stopped);
   bytes_received_ += answer.body_bytes;
   return answer;
 }
 
-Attempt ServerRequests::try_document(const std::string& url, const DocumentReader& read) {
+Attempt ServerRequests::try_document(const std::string& url, const DocumentReader& read,
+                                     const Stopped& stopped) {
   std::string text;
-  const HttpAnswer answer = get(url, kMaxDocumentBytes, [&](ByteView piece) {
-    text += as_text(piece);
-    return ok_status();
-  });
+  const HttpAnswer answer = get(
+      url, kMaxDocumentBytes,
+      [&](ByteView piece) {
+        text += as_text(piece);
+        return ok_status();
+      },
+      stopped);
   Status done = answer.status.ok() ? read(text) : answer.status;
   if (!done.ok() && done.error().code == ErrorCode::corrupt) {
     done = foreign_answer(url, done.error().what);
@@ -30,8 +34,9 @@ Attempt ServerRequests::try_document(const std::string& url, const DocumentReade
   return {std::move(done), answer.retry_after_s};
 }
 
-Status ServerRequests::document(const std::string& url, const DocumentReader& read) {
-  return with_retries(retry_, [&] { return try_document(url, read); });
+Status ServerRequests::document(const std::string& url, const DocumentReader& read,
+                                const Stopped& stopped) {
+  return with_retries(retry_, stopped, [&] { return try_document(url, read, stopped); });
 }
 
 }  // namespace milepost

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -21,10 +22,25 @@ constexpr std::size_t kMaxRefusalBytes = 16UL * 1024;
 constexpr long kMaxRedirects = 5;
 constexpr std::size_t kMaxTypeBytes = 60;
 
-struct HandleCloser {
+struct EasyCloser {
   void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
 };
-using Handle = std::unique_ptr<CURL, HandleCloser>;
+struct MultiCloser {
+  void operator()(CURLM* handle) const { curl_multi_cleanup(handle); }
+};
+
+// What makes one request after the other. The connections belong to `multi`, which must outlive
+// `easy`.
+struct Handle {
+  std::unique_ptr<CURLM, MultiCloser> multi;
+  std::unique_ptr<CURL, EasyCloser> easy;
+
+  static Handle make() {
+    return {std::unique_ptr<CURLM, MultiCloser>(curl_multi_init()),
+            std::unique_ptr<CURL, EasyCloser>(curl_easy_init())};
+  }
+  explicit operator bool() const { return multi && easy; }
+};
 
 void initialize_curl_once() {
   static const CURLcode initialized = curl_global_init(CURL_GLOBAL_DEFAULT);
@@ -36,7 +52,7 @@ class HandlePool {
  public:
   Handle take() {
     const std::lock_guard lock(mutex_);
-    if (resting_.empty()) return Handle(curl_easy_init());
+    if (resting_.empty()) return Handle::make();
     Handle handle = std::move(resting_.back());
     resting_.pop_back();
     return handle;
@@ -214,33 +230,60 @@ class CurlTransport : public Transport {
     initialize_curl_once();
   }
 
-  HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes,
-                 const BodySink& sink) override {
+  HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes, const BodySink& sink,
+                 const Stopped& stopped) override {
     Handle handle = pool_.take();
-    if (handle == nullptr) {
+    if (!handle) {
       return {Error{ErrorCode::io, url, "libcurl cannot be started", "free some memory"}};
     }
-    HttpAnswer answer = perform(handle.get(), url, body_limit_bytes, sink);
+    HttpAnswer answer = perform(handle, url, body_limit_bytes, sink, stopped);
     pool_.give_back(std::move(handle));
     return answer;
   }
 
  private:
-  HttpAnswer perform(CURL* handle, const std::string& url, std::uint64_t body_limit_bytes,
-                     const BodySink& sink) const {
+  HttpAnswer perform(const Handle& connection, const std::string& url,
+                     std::uint64_t body_limit_bytes, const BodySink& sink,
+                     const Stopped& stopped) const {
+    CURL* const handle = connection.easy.get();
     Reception reception;
     reception.handle = handle;
     reception.sink = &sink;
     reception.limit_bytes = body_limit_bytes;
     std::array<char, CURL_ERROR_SIZE> message{};
     set_options(handle, url, reception, message.data());
-    const CURLcode code = curl_easy_perform(handle);
+    const std::optional<CURLcode> code = run(connection, stopped);
     HttpAnswer answer;
     answer.body_bytes = reception.received_bytes;
     answer.retry_after_s = retry_after_s(handle);
-    answer.status = status_of(handle, url, reception, code, message.data());
+    answer.status =
+        code ? status_of(handle, url, reception, *code, message.data()) : cancelled(url);
     curl_easy_reset(handle);  // forgets pointers into this call; connections stay open
     return answer;
+  }
+
+  // Nothing where it was stopped.
+  static std::optional<CURLcode> run(const Handle& connection, const Stopped& stopped) {
+    constexpr int kLongestWaitMs = 50;
+    CURLM* const multi = connection.multi.get();
+    curl_multi_add_handle(multi, connection.easy.get());
+    int running = 1;
+    CURLMcode driven = CURLM_OK;
+    while (driven == CURLM_OK && !is_stopped(stopped)) {
+      driven = curl_multi_perform(multi, &running);
+      if (running == 0) break;
+      if (driven == CURLM_OK) {
+        driven = curl_multi_poll(multi, nullptr, 0, kLongestWaitMs, nullptr);
+      }
+    }
+    std::optional<CURLcode> code;
+    if (driven != CURLM_OK) code = CURLE_FAILED_INIT;
+    int left = 0;
+    while (const CURLMsg* message = curl_multi_info_read(multi, &left)) {
+      if (message->msg == CURLMSG_DONE) code = message->data.result;
+    }
+    curl_multi_remove_handle(multi, connection.easy.get());
+    return code;
   }
 
   static Status status_of(CURL* handle, const std::string& url, const Reception& reception,
@@ -263,7 +306,8 @@ class CurlTransport : public Transport {
                    char* message) const {
     const std::string user_agent = std::string("milepost/") + kVersion;
     curl_easy_setopt(handle, CURLOPT_URL, url.c_str());
-    curl_easy_setopt(handle, CURLOPT_NOSIGNAL, 1L);  // timeouts without signals: threads
+    curl_easy_setopt(handle, CURLOPT_NOSIGNAL, 1L);    // timeouts without signals: threads
+    curl_easy_setopt(handle, CURLOPT_QUICK_EXIT, 1L);  // does not wait for a name to be found
     curl_easy_setopt(handle, CURLOPT_USERAGENT, user_agent.c_str());  // copied
     curl_easy_setopt(handle, CURLOPT_ERRORBUFFER, message);
     curl_easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https");  // redirects too
@@ -271,9 +315,9 @@ class CurlTransport : public Transport {
     curl_easy_setopt(handle, CURLOPT_MAXREDIRS, kMaxRedirects);
     const double connect_ms = std::max(1.0, std::ceil(settings_.connect_timeout_s * 1000));
     curl_easy_setopt(handle, CURLOPT_CONNECTTIMEOUT_MS, static_cast<long>(connect_ms));
-    // Less than one byte a second for so long is a stall.
     const double stall_s = std::max(1.0, std::ceil(settings_.stall_timeout_s));
-    curl_easy_setopt(handle, CURLOPT_LOW_SPEED_LIMIT, 1L);
+    curl_easy_setopt(handle, CURLOPT_LOW_SPEED_LIMIT,
+                     static_cast<long>(std::max(1.0, settings_.least_bytes_per_s)));
     curl_easy_setopt(handle, CURLOPT_LOW_SPEED_TIME, static_cast<long>(stall_s));
     curl_easy_setopt(handle, CURLOPT_WRITEFUNCTION, &on_body);
     curl_easy_setopt(handle, CURLOPT_WRITEDATA, &reception);

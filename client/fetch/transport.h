@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "client/fetch/stopped.h"
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
 
@@ -19,8 +20,9 @@ struct HttpAnswer {
   // ok: status 200, no page of HTML, and the whole body went to the sink. Otherwise the error names
   // the URL: not_found (404), gone (410) and invalid_input (400 and other refusals), each only
   // where the body is application/problem+json, as a milepost server's is; invalid_input (a URL
-  // that is none); corrupt (a body beyond the limit); unavailable (no connection, a timeout, a body
-  // that breaks off, 429, 5xx, and foreign_answer for all else), or what the sink returned.
+  // that is none); corrupt (a body beyond the limit); cancelled; unavailable (no connection, a
+  // timeout, a body that breaks off, 429, 5xx, and foreign_answer for all else), or what the sink
+  // returned.
   Status status;
   double retry_after_s = 0;      // what a busy server asked for; 0 if it asked for nothing
   std::uint64_t body_bytes = 0;  // received, also of an answer that broke off
@@ -34,14 +36,18 @@ Error foreign_answer(const std::string& url, const std::string& what);
 class Transport {
  public:
   virtual ~Transport() = default;
-  // Makes one request. `body_limit_bytes` bounds what the sink may be given.
+  // Makes one request. `body_limit_bytes` bounds what the sink may be given; once `stopped` says
+  // so, it ends within a tenth of a second, cancelled.
   virtual HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes,
-                         const BodySink& sink) = 0;
+                         const BodySink& sink, const Stopped& stopped) = 0;
 };
 
 struct TransportSettings {
   double connect_timeout_s = 5;
-  double stall_timeout_s = 10;  // rounded up to whole seconds
+  // Ends an answer that brings less than least_bytes_per_s over so long; rounded up to whole
+  // seconds.
+  double stall_timeout_s = 10;
+  double least_bytes_per_s = 200;
 };
 
 // libcurl: keeps connections open between requests, one handle a request under way; follows up to

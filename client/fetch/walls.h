@@ -24,4 +24,9 @@ Result<std::vector<MapDescription>> maps_with_walls(MapSource& source);
 Result<std::vector<Wall>> walls_in(MapSource& source, const MapVersion& version,
                                    const std::string& layer, const Bounds& box);
 
+// The walls that a vehicle in `area` may see, as far as `view_m`: they may lie outside of it. An
+// area that has all longitudes keeps them. Errors: those of walls_in.
+Result<std::vector<Wall>> walls_seen_from(MapSource& source, const MapVersion& version,
+                                          const Bounds& area, double view_m);
+
 }  // namespace milepost

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/fetch/map_source.h"
+#include "client/localize/tracked_position.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -34,7 +35,8 @@ struct Fix {
   std::optional<double> heading_deg;      // of the camera, clockwise from north, [0, 360)
   // Where the camera is: beside the line where its lateral is known, else on it, at along_m.
   std::optional<GeoPoint> position;
-  int matches = 0;  // features that agreed on the measurement
+  std::optional<CameraPlacement> camera;  // ... in six degrees of freedom
+  int matches = 0;                        // features that agreed on the measurement
 };
 
 }  // namespace milepost

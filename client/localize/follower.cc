@@ -2,10 +2,10 @@
 
 namespace milepost {
 
-Error unusable_items(const SegmentSession& session) {
-  return {ErrorCode::corrupt,
-          "map '" + session.layer.version.map + "', layer '" + session.layer.layer + "'",
-          std::string("the method cannot use its ") + name_of(session.items), "build the map anew"};
+Error unusable_items(const SegmentLayer& layer) {
+  return {ErrorCode::corrupt, "map '" + layer.map() + "', layer '" + layer.name + "'",
+          std::string("the method cannot use its ") + name_of(layer.parameters->items),
+          "build the map anew"};
 }
 
 }  // namespace milepost

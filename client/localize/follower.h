@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "client/fetch/segment_layer.h"
 #include "client/localize/seen_frame.h"
-#include "client/localize/segment_session.h"
 #include "client/localize/tracked_position.h"
 #include "schema/geo/odometry.h"
 
@@ -19,8 +19,8 @@ struct Followed {
   // Logarithm of how much more likely the frame is from where the camera is followed than from
   // elsewhere; 0 of a frame that says nothing.
   double log_bayes_factor = 0;
-  std::optional<Error> failure =
-      std::nullopt;  // of the source, where it kept the frame from being measured
+  // Why tiles are missing that the frame would have been compared with.
+  std::optional<Error> failure = std::nullopt;
 };
 
 // One belief of where the camera is on a segment. Not safe to use from several threads at once.
@@ -32,7 +32,9 @@ class Follower {
   // the papers', ignore it.
   virtual void observe(const Odometry& /*odometry*/) {}
   // Where the camera is expected at a time after the last frame's.
-  virtual double expected_along_m(double timestamp_s) const = 0;
+  virtual TrackedPosition position_at(double timestamp_s) const = 0;
+  // What of the segment follow() looks at then.
+  virtual AlongRange needed(double timestamp_s) const = 0;
   // Follows to the next frame. What speaks against the place is not taken in.
   virtual Followed follow(SeenFrame& frame) = 0;
   virtual TrackedPosition position() const = 0;
@@ -45,17 +47,22 @@ struct Sighting {
   double log_bayes_factor = 0;
 };
 
+// What a look found, by the tiles that are held.
+struct Looked {
+  std::vector<Sighting> sightings;              // the most likely first
+  std::optional<Error> failure = std::nullopt;  // why tiles are missing
+};
+
 // Looks for the camera on one segment. Not safe to use from several threads at once.
 class Scout {
  public:
   virtual ~Scout() = default;
 
-  // The places in `around` that this frame may have been taken from, the most likely first.
-  // Errors: those of MapSource::tiles, corrupt.
-  virtual Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) = 0;
+  // The places in `around` that this frame may have been taken from.
+  virtual Looked look(SeenFrame& frame, const AlongRange& around) = 0;
 };
 
-// The error where a method cannot use what the session's layer holds: corrupt.
-Error unusable_items(const SegmentSession& session);
+// The error where a method cannot use what a layer holds: corrupt.
+Error unusable_items(const SegmentLayer& layer);
 
 }  // namespace milepost

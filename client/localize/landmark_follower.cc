@@ -24,11 +24,7 @@ Followed LandmarkFollower::begin(SeenFrame& frame, double along_m) {
   belief_ = first_belief(along_m);
   Followed followed;
   const AlongRange region = AlongRange{along_m, along_m}.widened(method_.start_region_m);
-  const Status covered = window_.cover(region);
-  if (!covered.ok()) {
-    followed.failure = covered.error();
-    return followed;
-  }
+  followed.failure = window_.cover(frame.held(), region).failure;
   const CompactFrame& compact = search_.compact(frame);
   if (const auto estimate = searched(compact, belief_, region)) {
     const PlaceSupport support = support_of(*estimate, compact);
@@ -44,8 +40,8 @@ void LandmarkFollower::observe(const Odometry& odometry) {
   timestamp_s_ = std::max(timestamp_s_, odometry.timestamp_s);
 }
 
-double LandmarkFollower::expected_along_m(double timestamp_s) const {
-  return placed(expected(timestamp_s)).along_m;
+TrackedPosition LandmarkFollower::position_at(double timestamp_s) const {
+  return tracked(expected(timestamp_s));
 }
 
 Followed LandmarkFollower::follow(SeenFrame& frame) {
@@ -54,17 +50,23 @@ Followed LandmarkFollower::follow(SeenFrame& frame) {
   const PoseBelief before = tilted(expected(frame.timestamp_s()), method_.motion);
   timestamp_s_ = frame.timestamp_s();
   belief_ = before;
-  const Placed at = placed(before);
-  const double reach_m = method_.region_sigmas * at.along_sigma_m + method_.min_region_m;
-  const AlongRange region = AlongRange{at.along_m, at.along_m}.widened(reach_m);
-  const Status covered = window_.cover(region);
-  if (!covered.ok()) {
-    followed.failure = covered.error();
-    return followed;
-  }
-  const CompactFrame& compact = search_.compact(frame);
-  measure(compact, before, region, followed);
+  const AlongRange region = region_about(before);
+  const Covered covered = window_.cover(frame.held(), region);
+  followed.failure = covered.failure;
+  measure(search_.compact(frame), before, region, followed);
+  // Landmarks that are not here yet speak against nothing.
+  if (!covered.complete && !followed.measured) followed.log_bayes_factor = 0;
   return followed;
+}
+
+AlongRange LandmarkFollower::needed(double timestamp_s) const {
+  return region_about(tilted(expected(timestamp_s), method_.motion));
+}
+
+AlongRange LandmarkFollower::region_about(const PoseBelief& belief) const {
+  const Placed at = placed(belief);
+  const double reach_m = method_.region_sigmas * at.along_sigma_m + method_.min_region_m;
+  return AlongRange{at.along_m, at.along_m}.widened(reach_m);
 }
 
 // Judges what the frame says before the belief takes it in.
@@ -88,14 +90,29 @@ void LandmarkFollower::measure(const CompactFrame& frame, const PoseBelief& befo
   }
 }
 
-TrackedPosition LandmarkFollower::position() const {
-  const Placed at = placed(belief_);
+TrackedPosition LandmarkFollower::position() const { return tracked(belief_); }
+
+TrackedPosition LandmarkFollower::tracked(const PoseBelief& belief) const {
+  const Placed at = placed(belief);
   const double inside_m = std::max(0.0, std::min(at.along_m, line_.length_m() - at.along_m));
   const double factor = std::sqrt(1 + method_.missed_variance * missed_part_ * missed_part_ +
                                   method_.end_variance * std::exp(-inside_m / method_.end_reach_m));
   return {at.along_m, factor * at.along_sigma_m,
-          Across{at.lateral_m, factor * at.lateral_sigma_m,
-                 wrapped_360(belief_.mean[kHeading] / kRadPerDeg), position_of(belief_)}};
+          Across{at.lateral_m, factor * at.lateral_sigma_m, camera_of(belief, factor)}};
+}
+
+// `sigma_factor`: by which sigmas are told wider than the belief's.
+CameraPlacement LandmarkFollower::camera_of(const PoseBelief& belief, double sigma_factor) const {
+  using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  Matrix6 covariance = belief.covariance.topLeftCorner<6, 6>();
+  covariance.diagonal().head<3>().array() += method_.min_sigma_m * method_.min_sigma_m;
+  covariance *= sigma_factor * sigma_factor;
+  covariance.rightCols<3>() /= kRadPerDeg;
+  covariance.bottomRows<3>() /= kRadPerDeg;
+  CameraPlacement camera{position_of(belief), wrapped_360(belief.mean[kHeading] / kRadPerDeg),
+                         belief.mean[kPitch] / kRadPerDeg, belief.mean[kRoll] / kRadPerDeg};
+  Eigen::Map<Matrix6>(camera.covariance.data()) = covariance;
+  return camera;
 }
 
 // Each landmark searched where it is expected, twice: the second time from a better pose.
@@ -106,8 +123,8 @@ std::optional<PoseEstimate> LandmarkFollower::expected_to_be(const CompactFrame&
   PoseEstimate estimate{before, {}};
   for (int look = 0; look < 2; ++look) {
     const auto matches =
-        match_expected(frame, search_.session->codebook->step(), window_.landmarks(), region,
-                       estimate.belief, search_.camera, method_.match);
+        match_expected(frame, search_.layer->parameters->codebook->step(), window_.landmarks(),
+                       region, estimate.belief, search_.camera, method_.match);
     estimate = solver.estimate(before, estimate.belief.mean, matches);
     const auto agreeing = static_cast<double>(estimate.agreeing.size());
     if (agreeing < method_.min_support) return std::nullopt;
@@ -121,16 +138,17 @@ std::optional<PoseEstimate> LandmarkFollower::expected_to_be(const CompactFrame&
 std::optional<PoseEstimate> LandmarkFollower::searched(const CompactFrame& frame,
                                                        const PoseBelief& before,
                                                        const AlongRange& region) const {
-  const auto matches = match_anywhere(frame, search_.session->codebook->step(), window_.landmarks(),
-                                      region, method_.match);
+  const auto matches = match_anywhere(frame, search_.layer->parameters->codebook->step(),
+                                      window_.landmarks(), region, method_.match);
   const PoseSolver solver(search_.camera, frame.features, window_.landmarks(), method_.solver);
   const auto agreed = estimate_by_consensus(solver, before, matches, method_.consensus);
   if (!agreed || static_cast<int>(agreed->agreeing.size()) < search_.min_start_support)
     return std::nullopt;
   PoseEstimate estimate = *agreed;
   for (int look = 0; look < kSearchLooks; ++look) {
-    const auto again = match_expected(frame, search_.session->codebook->step(), window_.landmarks(),
-                                      region, estimate.belief, search_.camera, method_.match);
+    const auto again =
+        match_expected(frame, search_.layer->parameters->codebook->step(), window_.landmarks(),
+                       region, estimate.belief, search_.camera, method_.match);
     estimate = solver.estimate(before, estimate.belief.mean, again);
     if (static_cast<int>(estimate.agreeing.size()) < search_.min_start_support) return std::nullopt;
   }

@@ -14,7 +14,7 @@ namespace milepost {
 
 // What a scout and its followers have in common.
 struct LandmarkSearch {
-  const SegmentSession* session = nullptr;
+  const SegmentLayer* layer = nullptr;
   Pinhole camera;
   ImageSize image;
   LandmarkMethod method;
@@ -22,7 +22,7 @@ struct LandmarkSearch {
   std::function<void(const TrackletEstimate&)> on_estimate;
 
   const CompactFrame& compact(SeenFrame& frame) const {
-    return frame.compact(session->feature, *session->codebook);
+    return frame.compact(layer->parameters->feature, *layer->parameters->codebook);
   }
 };
 
@@ -32,14 +32,15 @@ class LandmarkFollower : public Follower {
   LandmarkFollower(const LandmarkSearch& search, LandmarkWindow window)
       : search_(search),
         method_(search.method),
-        line_(search.session->line),
+        line_(search.layer->line),
         window_(std::move(window)) {}
 
   // The belief of a first look that puts the camera near `along_m`, by this frame.
   Followed begin(SeenFrame& frame, double along_m);
 
   void observe(const Odometry& odometry) override;
-  double expected_along_m(double timestamp_s) const override;
+  TrackedPosition position_at(double timestamp_s) const override;
+  AlongRange needed(double timestamp_s) const override;
   Followed follow(SeenFrame& frame) override;
   TrackedPosition position() const override;
 
@@ -63,6 +64,9 @@ class LandmarkFollower : public Follower {
   PoseBelief expected(double timestamp_s) const;
   GeoPoint position_of(const PoseBelief& belief) const;
   Placed placed(const PoseBelief& belief) const;
+  TrackedPosition tracked(const PoseBelief& belief) const;
+  CameraPlacement camera_of(const PoseBelief& belief, double sigma_factor) const;
+  AlongRange region_about(const PoseBelief& belief) const;
   void measure(const CompactFrame& frame, const PoseBelief& before, const AlongRange& region,
                Followed& followed);
   void take(const PoseEstimate& estimate, const PlaceSupport& support, const CompactFrame& frame,

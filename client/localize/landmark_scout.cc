@@ -9,32 +9,31 @@ namespace {
 
 class LandmarkScout : public Scout {
  public:
-  LandmarkScout(const SegmentSession& session, const QueryCamera& camera,
-                const ScoutSettings& settings, const LandmarkMethod& method)
-      : search_{&session,
+  LandmarkScout(const SegmentLayer& layer, const QueryCamera& camera, const ScoutSettings& settings,
+                const LandmarkMethod& method)
+      : search_{&layer,
                 {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px,
                  camera.principal_y_px},
                 {camera.width_px, camera.height_px > 0 ? camera.height_px : camera.width_px},
                 method,
                 settings.min_start_support,
                 settings.on_estimate},
-        window_(session.layer, settings.reach, session.line) {}
+        window_(layer.key, settings.reach, layer.line) {}
 
-  Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
-    const RouteLine& line = search_.session->line;
-    const Status covered = window_.cover(around);
-    if (!covered.ok()) return covered.error();
+  Looked look(SeenFrame& frame, const AlongRange& around) override {
+    const RouteLine& line = search_.layer->line;
+    Looked looked;
+    looked.failure = window_.cover(frame.held(), around).failure;
     lay_origin_near(line.point_at(std::clamp(around.middle_m(), 0.0, line.length_m())));
-    std::vector<Sighting> sightings;
     for (const double along_m : densest_along_m(search_.compact(frame), around)) {
       auto follower = std::make_unique<LandmarkFollower>(search_, window_);
       const Followed begun = follower->begin(frame, along_m);
-      if (begun.failure) return *begun.failure;
+      if (begun.failure && !looked.failure) looked.failure = begun.failure;
       if (!begun.measured) continue;
-      sightings.push_back({std::move(follower), begun.matches, begun.log_bayes_factor});
+      looked.sightings.push_back({std::move(follower), begun.matches, begun.log_bayes_factor});
     }
-    std::ranges::stable_sort(sightings, std::greater<>(), &Sighting::log_bayes_factor);
-    return sightings;
+    std::ranges::stable_sort(looked.sightings, std::greater<>(), &Sighting::log_bayes_factor);
+    return looked;
   }
 
  private:
@@ -47,11 +46,11 @@ class LandmarkScout : public Scout {
   // Where the scales of what looks alike put the camera: the densest places, apart from each other.
   std::vector<double> densest_along_m(const CompactFrame& frame, const AlongRange& around) const {
     const LandmarkMethod& method = search_.method;
-    const auto matches = match_anywhere(frame, search_.session->codebook->step(),
+    const auto matches = match_anywhere(frame, search_.layer->parameters->codebook->step(),
                                         window_.landmarks(), around, method.match);
     std::vector<PositionEstimate> left =
         along_by_scale(matches, frame.features, window_.landmarks(), search_.camera,
-                       search_.session->line, window_.frame(), method.solver.scale_sigma);
+                       search_.layer->line, window_.frame(), method.solver.scale_sigma);
     std::vector<double> places;
     while (static_cast<int>(places.size()) < method.max_start_places) {
       const auto densest = combine_robustly(left, method.vote);
@@ -71,11 +70,10 @@ class LandmarkScout : public Scout {
 }  // namespace
 
 Method landmark_method(const LandmarkMethod& settings) {
-  const auto make_scout = [settings](const SegmentSession& session, const QueryCamera& camera,
+  const auto make_scout = [settings](const SegmentLayer& layer, const QueryCamera& camera,
                                      const ScoutSettings& scout) -> Result<std::unique_ptr<Scout>> {
-    if (session.items != LayerItems::landmarks) return unusable_items(session);
-    return std::unique_ptr<Scout>(
-        std::make_unique<LandmarkScout>(session, camera, scout, settings));
+    if (layer.parameters->items != LayerItems::landmarks) return unusable_items(layer);
+    return std::unique_ptr<Scout>(std::make_unique<LandmarkScout>(layer, camera, scout, settings));
   };
   return {kDefaultMethod, "tracklets", make_scout, true};
 }

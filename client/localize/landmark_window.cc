@@ -1,7 +1,5 @@
 #include "client/localize/landmark_window.h"
 
-#include "schema/tile/codec.h"
-
 namespace milepost {
 namespace {
 
@@ -11,14 +9,13 @@ Eigen::Vector3d vector_from(const EnuPoint& point) {
 
 }  // namespace
 
-LandmarkWindow::LandmarkWindow(LayerSource from, const WindowReach& reach, const RouteLine& line)
-    : tiles_(std::move(from), reach, decode_landmarks), line_(line), frame_(line.point_at(0)) {}
+LandmarkWindow::LandmarkWindow(SegmentKey segment, const WindowReach& reach, const RouteLine& line)
+    : tiles_(std::move(segment), reach), line_(line), frame_(line.point_at(0)) {}
 
-Status LandmarkWindow::cover(const AlongRange& range) {
-  const Result<bool> changed = tiles_.cover(range);
-  if (!changed) return changed.error();
-  if (*changed) rebuild();
-  return ok_status();
+Covered LandmarkWindow::cover(const HeldMap& held, const AlongRange& range) {
+  Covered covered = tiles_.cover(held, range);
+  if (covered.changed) rebuild();
+  return covered;
 }
 
 void LandmarkWindow::set_origin(const GeoPoint& origin) {
@@ -28,7 +25,7 @@ void LandmarkWindow::set_origin(const GeoPoint& origin) {
 
 void LandmarkWindow::rebuild() {
   landmarks_.clear();
-  for (const auto& [index, tile] : tiles_.tiles()) {
+  tiles_.for_each([this](const LandmarkTile& tile) {
     const LocalFrame tile_frame(line_.point_at(tile.origin_m));
     for (const Landmark& landmark : tile.landmarks) {
       PlacedLandmark placed;
@@ -44,7 +41,7 @@ void LandmarkWindow::rebuild() {
       placed.along = landmark.along;
       landmarks_.push_back(placed);
     }
-  }
+  });
 }
 
 }  // namespace milepost

@@ -26,12 +26,10 @@ struct PlacedLandmark {
 class LandmarkWindow {
  public:
   // REQUIRES: `line` outlives the window.
-  LandmarkWindow(LayerSource from, const WindowReach& reach, const RouteLine& line);
+  LandmarkWindow(SegmentKey segment, const WindowReach& reach, const RouteLine& line);
 
-  // Makes sure that every landmark whose along range meets `range` is held; fetches and lets go.
-  // After an error what was held is held still. Errors: those of MapSource::tiles, corrupt (a
-  // tile).
-  Status cover(const AlongRange& range);
+  // Takes every landmark that is held and whose along range meets `range`, and lets go of others.
+  Covered cover(const HeldMap& held, const AlongRange& range);
   // Moves the frame's origin to `origin`.
   void set_origin(const GeoPoint& origin);
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <variant>
 
-#include "client/fetch/prefetcher.h"
+#include "client/fetch/tile_provider.h"
 #include "client/localize/place.h"
 #include "client/localize/second_look.h"
 
@@ -40,19 +40,29 @@ struct Following {
   SecondLook second_look = {};
 };
 
+// What a look about a position came to.
+struct Scouted {
+  std::optional<double> nearest_m;  // how far the nearest segment is, infinitely where none is
+                                    // near; nothing while that is not known
+  std::optional<Error> failure = std::nullopt;  // why something is missing of the map
+};
+
 }  // namespace
 
 struct Localizer::Impl {
-  std::shared_ptr<MapSource> source;
+  Impl(std::shared_ptr<MapSource> source, const QueryCamera& query, const LocalizerSettings& given)
+      : camera(query),
+        settings(given),
+        provider(std::move(source), given.method.layer, given.provider) {}
+
   QueryCamera camera;
   LocalizerSettings settings;
-  std::unique_ptr<Prefetcher> prefetcher;  // empty if turned off
+  TileProvider provider;
 
   std::optional<CoarsePosition> coarse;  // the receiver's latest
   std::optional<Odometry> odometry;      // the latest
   std::variant<Searching, Following> state = Searching{};
   std::vector<std::shared_ptr<OpenSegment>> segments;  // opened last, the latest at the end
-  double prefetched_to_m = 0;
   std::optional<Error> noted;
 
   Result<Fix> search(SeenFrame& frame);
@@ -60,14 +70,18 @@ struct Localizer::Impl {
 
   std::optional<CoarsePosition> fresh(const std::optional<CoarsePosition>& position,
                                       double timestamp_s) const;
-  Result<double> scout(SeenFrame& frame, const CoarsePosition& around, Searching& searching);
-  Result<std::shared_ptr<OpenSegment>> opened(const NearbySegment& where);
+  Surroundings surroundings(const CoarsePosition& around) const;
+  double start_reach_m(const CoarsePosition& around, double timestamp_s) const;
+  Scouted scout(SeenFrame& frame, const CoarsePosition& around, Searching& searching);
+  Result<std::shared_ptr<OpenSegment>> opened(const std::shared_ptr<const SegmentLayer>& layer);
   void carry(Searching& searching, SeenFrame& frame);
   Fix weighed(Searching& searching, double timestamp_s);
   void look_again(Following& following, SeenFrame& frame) const;
   void claim(Place place);
-  void prefetch_ahead(const Place& place);
+  Wants wants(double timestamp_s, const HeldMap& held) const;
   Fix located(const Place& place, FixStatus status) const;
+  Fix located(const Place& place, const TrackedPosition& position, double timestamp_s,
+              FixStatus status) const;
   void widen(Fix& fix, double log_odds, const Place& place, const std::vector<Place>& places) const;
 };
 
@@ -78,6 +92,12 @@ Fix unlocated(double timestamp_s, FixStatus status) {
   fix.timestamp_s = timestamp_s;
   fix.status = status;
   return fix;
+}
+
+// Adds a variance that is alike in each direction of the plan.
+void widen_in_plan(CameraPlacement& camera, double sigma_m) {
+  camera.covariance[0] += sigma_m * sigma_m;
+  camera.covariance[7] += sigma_m * sigma_m;
 }
 
 // Whether the segment leads where the vehicle looks, as far as that is known.
@@ -91,18 +111,16 @@ bool leads_ahead(const RouteLine& line, double along_m, const CoarsePosition& ve
 
 Localizer::Localizer(std::shared_ptr<MapSource> source, const QueryCamera& camera,
                      const LocalizerSettings& settings)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->source = std::move(source);
-  impl_->camera = camera;
-  impl_->settings = settings;
-  if (settings.prefetch_m > 0) impl_->prefetcher = std::make_unique<Prefetcher>(impl_->source);
-}
+    : impl_(std::make_unique<Impl>(std::move(source), camera, settings)) {}
 
 Localizer::~Localizer() = default;
 Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
-void Localizer::observe(const CoarsePosition& position) { impl_->coarse = position; }
+void Localizer::observe(const CoarsePosition& position) {
+  impl_->coarse = position;
+  impl_->provider.want(impl_->wants(position.timestamp_s, *impl_->provider.held()));
+}
 
 void Localizer::observe(const Odometry& odometry) {
   const bool is_sound = std::isfinite(odometry.speed_mps) && std::isfinite(odometry.yaw_rate_dps);
@@ -121,9 +139,36 @@ void Localizer::observe(const Odometry& odometry) {
 const std::optional<Error>& Localizer::noted_error() const { return impl_->noted; }
 
 Result<Fix> Localizer::localize(const QueryFrame& frame) {
-  SeenFrame seen(frame);
-  return std::holds_alternative<Following>(impl_->state) ? impl_->follow(seen)
-                                                         : impl_->search(seen);
+  const std::shared_ptr<const HeldMap> held = impl_->provider.held();
+  SeenFrame seen(frame, *held);
+  Result<Fix> fix =
+      std::holds_alternative<Following>(impl_->state) ? impl_->follow(seen) : impl_->search(seen);
+  impl_->provider.want(impl_->wants(frame.timestamp_s, *held));
+  return fix;
+}
+
+Fix Localizer::fix_at(double timestamp_s) const {
+  const auto* following = std::get_if<Following>(&impl_->state);
+  if (!following) {
+    return unlocated(timestamp_s, std::get<Searching>(impl_->state).waiting);
+  }
+  const Place& place = following->place;
+  const TrackedPosition position = place.follower->position_at(timestamp_s);
+  if (!place.is_on_segment(position.along_m)) return unlocated(timestamp_s, FixStatus::off_map);
+  return impl_->located(place, position, timestamp_s, FixStatus::predicted);
+}
+
+const TileProvider& Localizer::provider() const { return impl_->provider; }
+
+void Localizer::wait_for_tiles(double timestamp_s, SteadyTime deadline, const Stopped& stopped) {
+  TileProvider& provider = impl_->provider;
+  while (!is_stopped(stopped) && std::chrono::steady_clock::now() < deadline) {
+    const std::shared_ptr<const HeldMap> held = provider.held();
+    provider.want(impl_->wants(timestamp_s, *held));
+    // What is held may have told of more to want.
+    if (provider.is_settled() && provider.held() == held) return;
+    provider.wait_for_change(deadline);
+  }
 }
 
 // The position, unless it is too old to start from or to contradict.
@@ -134,43 +179,57 @@ std::optional<CoarsePosition> Localizer::Impl::fresh(const std::optional<CoarseP
   return is_fresh ? position : std::nullopt;
 }
 
-Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(const NearbySegment& where) {
+Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(
+    const std::shared_ptr<const SegmentLayer>& layer) {
   for (const std::shared_ptr<OpenSegment>& segment : segments) {
-    const LayerSource& layer = segment->session.layer;
-    if (layer.version == where.version && layer.segment == where.segment) return segment;
+    if (segment->layer == layer) return segment;
   }
-  Result<SegmentSession> session =
-      open_session({source, where.version, where.segment, settings.method.layer});
-  if (!session) return session.error();
-  auto segment = std::make_shared<OpenSegment>(OpenSegment{std::move(*session), nullptr});
-  Result<std::unique_ptr<Scout>> scout =
-      settings.method.make_scout(segment->session, camera, settings.scout);
+  Result<std::unique_ptr<Scout>> scout = settings.method.make_scout(*layer, camera, settings.scout);
   if (!scout) return scout.error();
-  segment->scout = std::move(*scout);
+  auto segment = std::make_shared<OpenSegment>(OpenSegment{layer, std::move(*scout)});
   if (segments.size() == kMaxCandidates) segments.erase(segments.begin());
   segments.push_back(segment);
   return segment;
 }
 
-// Adds the places on segments near to a position that this frame may have been taken from. How far
-// the nearest segment is; infinitely, where none is near.
-Result<double> Localizer::Impl::scout(SeenFrame& frame, const CoarsePosition& around,
-                                      Searching& searching) {
-  const double age_s = frame.timestamp_s() - around.timestamp_s;
-  const double reach_m = settings.start_sigmas * around.sigma_m + settings.start_reach_m +
-                         settings.receiver.speed_mps * age_s;
-  const double radius_m = settings.start_radius_m + settings.start_sigmas * around.sigma_m;
-  Result<std::vector<NearbySegment>> near = source->segments_near(around.position, radius_m);
-  if (!near) return near.error();
+// Segments that pass nearer may be the one that a position is on.
+Surroundings Localizer::Impl::surroundings(const CoarsePosition& around) const {
+  return {around.position, settings.start_radius_m + settings.start_sigmas * around.sigma_m};
+}
+
+// How far to either side of a position it is looked for the camera.
+double Localizer::Impl::start_reach_m(const CoarsePosition& around, double timestamp_s) const {
+  const double age_s = timestamp_s - around.timestamp_s;
+  return settings.start_sigmas * around.sigma_m + settings.start_reach_m +
+         settings.receiver.speed_mps * age_s;
+}
+
+// Adds the places on segments near to a position that this frame may have been taken from.
+Scouted Localizer::Impl::scout(SeenFrame& frame, const CoarsePosition& around,
+                               Searching& searching) {
+  auto near = frame.held().segments_near(surroundings(around));
+  if (!near) return {std::nullopt, frame.held().around_failure};
+  Scouted scouted;
+  scouted.nearest_m =
+      near->empty() ? std::numeric_limits<double>::infinity() : near->front().distance_m;
   if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
   for (const NearbySegment& where : *near) {
-    const Result<std::shared_ptr<OpenSegment>> segment = opened(where);
-    if (!segment) return segment.error();
-    if (!leads_ahead((*segment)->session.line, where.along_m, around)) continue;
-    Result<std::vector<Sighting>> seen =
+    const HeldSegment* held = frame.held().find({where.version, where.segment});
+    if (held == nullptr || !held->layer) {
+      if (held != nullptr && held->failure) scouted.failure = held->failure;
+      continue;
+    }
+    if (!leads_ahead(held->layer->line, where.along_m, around)) continue;
+    const Result<std::shared_ptr<OpenSegment>> segment = opened(held->layer);
+    if (!segment) {
+      scouted.failure = segment.error();
+      continue;
+    }
+    const double reach_m = start_reach_m(around, frame.timestamp_s());
+    Looked looked =
         (*segment)->scout->look(frame, AlongRange{where.along_m, where.along_m}.widened(reach_m));
-    if (!seen) return seen.error();
-    for (Sighting& sighting : *seen) {
+    if (looked.failure) scouted.failure = looked.failure;
+    for (Sighting& sighting : looked.sightings) {
       Place place{*segment,
                   std::move(sighting.follower),
                   PlaceOdds(settings.odds),
@@ -187,7 +246,7 @@ Result<double> Localizer::Impl::scout(SeenFrame& frame, const CoarsePosition& ar
       searching.places.push_back(std::move(place));
     }
   }
-  return near->empty() ? std::numeric_limits<double>::infinity() : near->front().distance_m;
+  return scouted;
 }
 
 // Advances the places that are not at this frame yet.
@@ -210,14 +269,19 @@ Result<Fix> Localizer::Impl::search(SeenFrame& frame) {
   const std::optional<CoarsePosition> reading = fresh(coarse, frame.timestamp_s());
   const auto around = reading ? reading : fresh(searching.lost_at, frame.timestamp_s());
   if (around) {
-    const Result<double> nearest_m = scout(frame, *around, searching);
-    if (!nearest_m) {
-      if (searching.places.empty()) return nearest_m.error();
-      noted = nearest_m.error();
-    } else if (reading && *nearest_m > settings.start_sigmas * reading->sigma_m + kEndMarginM) {
-      searching.waiting = FixStatus::off_map;
-    } else if (reading && searching.waiting == FixStatus::off_map && !searching.left) {
-      searching.waiting = FixStatus::initializing;
+    const Scouted scouted = scout(frame, *around, searching);
+    if (scouted.failure) {
+      if (searching.places.empty()) return *scouted.failure;
+      noted = scouted.failure;
+    }
+    if (reading && scouted.nearest_m) {
+      const bool is_off =
+          *scouted.nearest_m > settings.start_sigmas * reading->sigma_m + kEndMarginM;
+      if (is_off) {
+        searching.waiting = FixStatus::off_map;
+      } else if (searching.waiting == FixStatus::off_map && !searching.left) {
+        searching.waiting = FixStatus::initializing;
+      }
     }
   }
   weigh(searching.places, reading, static_cast<std::size_t>(settings.max_places));
@@ -241,10 +305,7 @@ Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
   return located(std::get<Following>(state).place, FixStatus::tracking);
 }
 
-void Localizer::Impl::claim(Place place) {
-  prefetched_to_m = 0;
-  state = Following{std::move(place)};
-}
+void Localizer::Impl::claim(Place place) { state = Following{std::move(place)}; }
 
 // Finds the pose anew, where that is due, and compares.
 void Localizer::Impl::look_again(Following& following, SeenFrame& frame) const {
@@ -252,14 +313,14 @@ void Localizer::Impl::look_again(Following& following, SeenFrame& frame) const {
   const double along_m = place.follower->position().along_m;
   if (!settings.method.looks_again || !following.second_look.is_due(along_m)) return;
   const AlongRange around = AlongRange{along_m, along_m}.widened(kSamePlaceM);
-  Result<std::vector<Sighting>> seen = place.segment->scout->look(frame, around);
-  if (seen) following.second_look.compare(place, std::move(*seen));
+  Looked looked = place.segment->scout->look(frame, around);
+  if (!looked.failure) following.second_look.compare(place, std::move(looked.sightings));
 }
 
 Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
   auto& following = std::get<Following>(state);
   Place& place = following.place;
-  if (!place.is_on_segment(place.follower->expected_along_m(frame.timestamp_s()))) {
+  if (!place.is_on_segment(place.follower->position_at(frame.timestamp_s()).along_m)) {
     Searching left;
     left.leave(std::move(place));
     state = std::move(left);
@@ -277,7 +338,6 @@ Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
   place.weigh(place.log_bayes_factor, fresh(coarse, frame.timestamp_s()));
   if (place.measured && place.odds.log() >= settings.odds.hold) {
     following.frames_without_measurement = 0;
-    prefetch_ahead(place);
     return located(place, FixStatus::tracking);
   }
   const bool is_lost = ++following.frames_without_measurement > settings.max_predicted_frames ||
@@ -298,20 +358,28 @@ Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
 }
 
 Fix Localizer::Impl::located(const Place& place, FixStatus status) const {
-  const TrackedPosition position = place.follower->position();
-  Fix fix = unlocated(place.timestamp_s, status);
-  fix.version = place.session().layer.version;
-  fix.segment = place.session().layer.segment;
-  fix.along_m = std::clamp(position.along_m, 0.0, place.session().line.length_m());
+  Fix fix = located(place, place.follower->position(), place.timestamp_s, status);
+  fix.matches = place.measured ? place.matches : 0;
+  return fix;
+}
+
+Fix Localizer::Impl::located(const Place& place, const TrackedPosition& position,
+                             double timestamp_s, FixStatus status) const {
+  const RouteLine& line = place.layer().line;
+  Fix fix = unlocated(timestamp_s, status);
+  fix.version = place.layer().key.version;
+  fix.segment = place.layer().key.segment;
+  fix.along_m = std::clamp(position.along_m, 0.0, line.length_m());
   fix.sigma_m = std::hypot(position.sigma_m, place.apart_m);
-  fix.position = place.session().line.point_at(*fix.along_m);
+  fix.position = line.point_at(*fix.along_m);
   if (position.across) {
     fix.lateral_m = position.across->lateral_m;
     fix.lateral_sigma_m = std::hypot(position.across->lateral_sigma_m, place.apart_m);
-    fix.heading_deg = position.across->heading_deg;
-    fix.position = position.across->position;
+    fix.camera = position.across->camera;
+    widen_in_plan(*fix.camera, place.apart_m);
+    fix.heading_deg = fix.camera->heading_deg;
+    fix.position = fix.camera->position;
   }
-  fix.matches = place.measured ? place.matches : 0;
   return fix;
 }
 
@@ -335,18 +403,51 @@ void Localizer::Impl::widen(Fix& fix, double log_odds, const Place& place,
   const double spread_m = std::sqrt(square_m2 / weights);
   fix.sigma_m = std::hypot(fix.sigma_m, spread_m);
   if (fix.lateral_sigma_m) fix.lateral_sigma_m = std::hypot(*fix.lateral_sigma_m, spread_m);
+  if (fix.camera) widen_in_plan(*fix.camera, spread_m);
 }
 
-void Localizer::Impl::prefetch_ahead(const Place& place) {
-  if (!prefetcher) return;
-  const double at_m = place.follower->position().along_m;
-  if (at_m + settings.prefetch_m / 2 < prefetched_to_m) return;
-  const AlongRange ahead = {at_m, at_m + settings.prefetch_m};
-  const SegmentSession& session = place.session();
-  if (prefetched_to_m < session.line.length_m()) {
-    prefetcher->request(session.layer.version, session.layer.segment, settings.method.layer, ahead);
+// What a frame of that time, and those after it, need of the map.
+Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
+  enum : int { kNow, kPerhaps, kAhead };
+  const WindowReach& reach = settings.scout.reach;
+  Wants wants;
+  const auto want = [&](const SegmentKey& key, const AlongRange& range, int priority) {
+    wants.tiles.push_back({key, range, priority});
+  };
+  const auto want_place = [&](const Place& place) {
+    // Beside what is followed, what is looked at anew.
+    constexpr double kSecondLookM = kSamePlaceM + 10;
+    const AlongRange needed = place.follower->needed(timestamp_s).widened(kSecondLookM);
+    want(place.layer().key, reach.around(needed), kNow);
+  };
+  std::optional<CoarsePosition> around = fresh(coarse, timestamp_s);
+  const auto* following = std::get_if<Following>(&state);
+  if (following) {
+    want_place(following->place);
+    const double at_m = following->place.follower->position().along_m;
+    want(following->place.layer().key, {at_m, at_m + settings.prefetch_m}, kAhead);
+    if (!around) around = CoarsePosition{timestamp_s, following->place.position(), 0};
+  } else {
+    const auto& searching = std::get<Searching>(state);
+    for (const Place& place : searching.places) want_place(place);
+    if (!around) around = fresh(searching.lost_at, timestamp_s);
   }
-  prefetched_to_m = ahead.to_m;
+  if (!around) return wants;
+  wants.around = surroundings(*around);
+  auto near = held.segments_near(*wants.around);
+  if (!near) return wants;
+  if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
+  for (const NearbySegment& where : *near) {
+    const SegmentKey key = {where.version, where.segment};
+    // Where the place may be found again; other segments where this one ends.
+    const bool is_of_use = !following || key == following->place.layer().key ||
+                           following->place.is_near_end(settings.prefetch_m);
+    if (!is_of_use) continue;
+    const AlongRange looked_at =
+        AlongRange{where.along_m, where.along_m}.widened(start_reach_m(*around, timestamp_s));
+    want(key, reach.around(looked_at), following ? kPerhaps : kNow);
+  }
+  return wants;
 }
 
 }  // namespace milepost

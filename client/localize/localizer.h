@@ -4,7 +4,11 @@
 #include <memory>
 #include <optional>
 
+#include "client/fetch/backoff.h"
 #include "client/fetch/map_source.h"
+#include "client/fetch/provider_state.h"
+#include "client/fetch/stopped.h"
+#include "client/fetch/tile_provider.h"
 #include "client/localize/coarse_position.h"
 #include "client/localize/fix.h"
 #include "client/localize/landmark_method.h"
@@ -25,12 +29,13 @@ struct LocalizerSettings {
   ReceiverEvidenceSettings receiver;
   int max_places = 5;            // that are weighed against each other
   int max_predicted_frames = 8;  // frames without measurement before the vehicle counts as lost
-  double prefetch_m = 300;       // fetched ahead in the background; 0 turns it off
+  double prefetch_m = 300;       // wanted ahead
   ScoutSettings scout;
+  ProviderSettings provider;
 };
 
-// Not safe to use from several threads at once. Fixes depend on frames, positions and map only:
-// what is missing is waited for, so the prefetcher changes times, not results.
+// Not safe to use from several threads at once. The map comes by threads of the localizer's own:
+// a frame takes what has arrived, and waits for nothing.
 class Localizer {
  public:
   Localizer(std::shared_ptr<MapSource> source, const QueryCamera& camera,
@@ -47,14 +52,26 @@ class Localizer {
   // left out.
   void observe(const Odometry& odometry);
 
-  // The fix of the next frame. REQUIRES: timestamps ascend strictly.
+  // The fix of the next frame, by what is held of the map. REQUIRES: timestamps ascend strictly.
   // Errors: what the map source says when there is nothing to go on with (unavailable, corrupt,
   // ...), and invalid_input where the map lacks the method's layer. The localizer stays usable: the
   // next frame may succeed. Once tracking, a source that fails is noted and driven on without.
   Result<Fix> localize(const QueryFrame& frame);
 
+  // Where the latest fix has come to by a time after its frame, as the motion is known.
+  // REQUIRES: not before the latest frame.
+  Fix fix_at(double timestamp_s) const;
+
+  // What is held and wanted of the map.
+  const TileProvider& provider() const;
+
   // The latest failure of the source that did not keep localize() from answering.
   const std::optional<Error>& noted_error() const;
+
+  // For replays of recorded drives, so that their fixes are the same each time: waits until what
+  // a frame of that time needs of the map is held or was asked for in vain, at the latest until
+  // `deadline`, or until it is stopped.
+  void wait_for_tiles(double timestamp_s, SteadyTime deadline, const Stopped& stopped = {});
 
  private:
   struct Impl;

@@ -13,7 +13,7 @@
 namespace milepost {
 
 class Scout;
-struct SegmentSession;
+struct SegmentLayer;
 
 // What every method is told.
 struct ScoutSettings {
@@ -24,10 +24,10 @@ struct ScoutSettings {
   std::function<void(const TrackletEstimate&)> on_estimate = {};
 };
 
-// A scout for one segment. REQUIRES: the session outlives the scout and its followers.
+// A scout for one segment. REQUIRES: the layer outlives the scout and its followers.
 // Errors: corrupt (the layer holds other items than the method needs).
 using MakeScout = std::function<Result<std::unique_ptr<Scout>>(
-    const SegmentSession& session, const QueryCamera& camera, const ScoutSettings& settings)>;
+    const SegmentLayer& layer, const QueryCamera& camera, const ScoutSettings& settings)>;
 
 struct Method {
   std::string name;

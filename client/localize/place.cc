@@ -43,10 +43,14 @@ void merge_same(std::vector<Place>& places) {
 
 }  // namespace
 
-GeoPoint Place::position() const { return session().position_of(follower->position()); }
+GeoPoint Place::position() const { return position_of(follower->position(), layer().line); }
 
 bool Place::is_on_segment(double along_m) const {
-  return along_m >= -kEndMarginM && along_m <= session().line.length_m() + kEndMarginM;
+  return along_m >= -kEndMarginM && along_m <= layer().line.length_m() + kEndMarginM;
+}
+
+bool Place::is_near_end(double ahead_m) const {
+  return follower->position().along_m + ahead_m > layer().line.length_m();
 }
 
 Followed Place::advance(SeenFrame& frame) {
@@ -91,13 +95,10 @@ double log_odds_of_first(const std::vector<Place>& places) {
 
 double log_density_after(const Place& left, const Place& place) {
   constexpr double kAccelerationMps2 = 2;
-  const SegmentSession& before = left.session();
-  const SegmentSession& now = place.session();
-  if (before.layer.version != now.layer.version || before.layer.segment != now.layer.segment)
-    return 0;
+  if (left.layer().key != place.layer().key) return 0;
   const double since_s = place.timestamp_s - left.timestamp_s;
   const double off_m =
-      place.follower->position().along_m - left.follower->expected_along_m(place.timestamp_s);
+      place.follower->position().along_m - left.follower->position_at(place.timestamp_s).along_m;
   const double sigma_m =
       0.5 + left.follower->position().sigma_m + kAccelerationMps2 * since_s * since_s / 2;
   const double sigmas = off_m / sigma_m;

@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include "client/fetch/segment_layer.h"
 #include "client/localize/coarse_position.h"
 #include "client/localize/follower.h"
 #include "client/localize/place_odds.h"
 #include "client/localize/receiver_evidence.h"
-#include "client/localize/segment_session.h"
 
 namespace milepost {
 
@@ -22,7 +22,7 @@ inline constexpr double kAgreedM = 0.5;   // ... and independent poses agree
 
 // A segment that is looked at.
 struct OpenSegment {
-  SegmentSession session;
+  std::shared_ptr<const SegmentLayer> layer;
   std::unique_ptr<Scout> scout;
 };
 
@@ -40,9 +40,11 @@ struct Place {
   // ... and how far off another pose is that as much of it agrees with, found independently.
   double apart_m = 0;
 
-  const SegmentSession& session() const { return segment->session; }
+  const SegmentLayer& layer() const { return *segment->layer; }
   GeoPoint position() const;
   bool is_on_segment(double along_m) const;
+  // Whether its segment ends within so much ahead.
+  bool is_near_end(double ahead_m) const;
 
   // One frame further.
   Followed advance(SeenFrame& frame);

@@ -26,7 +26,7 @@ void SecondLook::compare(Place& place, std::vector<Sighting> sightings) {
   const double apart_m =
       most == sightings.end()
           ? 0
-          : geodesic_distance_m(place.session().position_of(most->follower->position()),
+          : geodesic_distance_m(position_of(most->follower->position(), place.layer().line),
                                 place.position());
   const bool is_rival =
       apart_m > kAgreedM && apart_m < kSamePlaceM && most->matches > kRivalPart * place.matches;

@@ -4,19 +4,21 @@
 #include <map>
 #include <memory>
 
+#include "client/fetch/held_map.h"
 #include "client/localize/landmark_matching.h"
 #include "client/localize/query.h"
 
 namespace milepost {
 
-// Not safe to use from several threads at once. REQUIRES: the frame and every codebook given
-// outlive it.
+// Not safe to use from several threads at once. REQUIRES: the frame, what is held and every
+// codebook given outlive it.
 class SeenFrame {
  public:
-  explicit SeenFrame(const QueryFrame& frame) : frame_(frame) {}
+  SeenFrame(const QueryFrame& frame, const HeldMap& held) : frame_(frame), held_(held) {}
 
   double timestamp_s() const { return frame_.timestamp_s; }
   const QueryFrame& frame() const { return frame_; }
+  const HeldMap& held() const { return held_; }  // of the map, when the frame was taken
 
   const FeatureSet& features(const FeatureParameters& parameters) const {
     return frame_.features(parameters);
@@ -31,6 +33,7 @@ class SeenFrame {
 
  private:
   const QueryFrame& frame_;
+  const HeldMap& held_;
   std::map<const Codebook*, std::unique_ptr<CompactFrame>> compact_;
 };
 

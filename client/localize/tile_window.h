@@ -1,76 +1,91 @@
-// The tiles of one layer of one segment around the vehicle, decoded.
+// The tiles of one layer of one segment around the vehicle.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <string>
+#include <optional>
 #include <utility>
-#include <vector>
 
-#include "client/fetch/map_source.h"
+#include "client/fetch/documents.h"
+#include "client/fetch/held_map.h"
 
 namespace milepost {
 
-// A layer of one segment of one build, and where it comes from.
-struct LayerSource {
-  std::shared_ptr<MapSource> source;
-  MapVersion version;
-  std::string segment;
-  std::string layer;
+struct WindowReach {
+  double ahead_m = 60;   // taken beyond what is needed, so that not every frame begins anew
+  double behind_m = 60;  // kept behind what is needed
+
+  AlongRange around(const AlongRange& range) const {
+    return {range.from_m - behind_m, range.to_m + ahead_m};
+  }
 };
 
-struct WindowReach {
-  double ahead_m = 60;   // fetched beyond what is needed, so that not every frame asks the source
-  double behind_m = 60;  // kept behind what is needed
+// What a window has of the range it was asked for.
+struct Covered {
+  bool changed = false;                         // other tiles than before
+  bool complete = true;                         // every tile with an item in the range
+  std::optional<Error> failure = std::nullopt;  // why one is missing that was asked for in vain
 };
 
 // Not safe to use from several threads at once.
 template <class Tile>
 class TileWindow {
  public:
-  using Decode = Result<Tile> (*)(ByteView);
+  using Tiles = std::map<std::uint32_t, std::shared_ptr<const DecodedTile>>;
 
-  TileWindow(LayerSource from, const WindowReach& reach, Decode decode)
-      : from_(std::move(from)), reach_(reach), decode_(decode) {}
+  TileWindow(SegmentKey segment, const WindowReach& reach)
+      : segment_(std::move(segment)), reach_(reach) {}
 
-  // Makes sure that every tile with an item that meets `range` is held; fetches and lets go.
-  // Whether the tiles held have changed. After an error what was held is held still. Errors: those
-  // of MapSource::tiles, corrupt (a tile).
-  Result<bool> cover(const AlongRange& range) {
-    const bool covered = covered_.from_m <= range.from_m && range.to_m <= covered_.to_m;
-    if (covered) return false;
-    const AlongRange wanted = {range.from_m - reach_.behind_m, range.to_m + reach_.ahead_m};
-    const Result<std::vector<TileFrame>> frames =
-        from_.source->tiles(from_.version, from_.segment, from_.layer, wanted);
-    if (!frames) return frames.error();
-
-    std::map<std::uint32_t, Tile> tiles;
-    for (const TileFrame& frame : *frames) {
-      if (auto held = tiles_.extract(frame.index)) {
-        tiles.insert(std::move(held));
+  // Takes, of what is held, every tile with an item that meets `range`, and those about it; lets go
+  // of the others. What was taken once stays, also where it is held no more.
+  Covered cover(const HeldMap& held, const AlongRange& range) {
+    const bool inside = covered_.from_m <= range.from_m && range.to_m <= covered_.to_m;
+    if (inside && is_whole_) return {};
+    const HeldSegment* segment = held.find(segment_);
+    if (segment == nullptr || !segment->layer) {
+      return {false, false, segment == nullptr ? std::nullopt : segment->failure};
+    }
+    if (!inside) covered_ = reach_.around(range);
+    is_whole_ = true;
+    Covered covered;
+    Tiles taken;
+    for (const TileEntry& entry : entries_meeting(segment->layer->index, covered_)) {
+      if (auto tile = find(*segment, entry.index)) {
+        taken.emplace(entry.index, std::move(tile));
         continue;
       }
-      Result<Tile> tile = decode_(frame.frame);
-      if (!tile) {
-        tiles_.merge(tiles);
-        return tile.error();
-      }
-      tiles.emplace(frame.index, std::move(*tile));
+      is_whole_ = false;
+      if (!entry.along.meets(range)) continue;
+      covered.complete = false;
+      const auto missing = segment->missing.find(entry.index);
+      if (missing != segment->missing.end() && !covered.failure) covered.failure = missing->second;
     }
-    tiles_ = std::move(tiles);
-    covered_ = wanted;
-    return true;
+    covered.changed = taken != tiles_;
+    tiles_ = std::move(taken);
+    return covered;
   }
 
-  const std::map<std::uint32_t, Tile>& tiles() const { return tiles_; }
+  // Calls `use` with each tile, by ascending index.
+  template <class Use>
+  void for_each(const Use& use) const {
+    for (const auto& [index, tile] : tiles_) {
+      if (const Tile* of_kind = std::get_if<Tile>(tile.get())) use(*of_kind);
+    }
+  }
 
  private:
-  LayerSource from_;
+  std::shared_ptr<const DecodedTile> find(const HeldSegment& segment, std::uint32_t index) const {
+    if (const auto mine = tiles_.find(index); mine != tiles_.end()) return mine->second;
+    const auto held = segment.tiles.find(index);
+    return held == segment.tiles.end() ? nullptr : held->second;
+  }
+
+  SegmentKey segment_;
   WindowReach reach_;
-  Decode decode_;
   AlongRange covered_{0, -1};
-  std::map<std::uint32_t, Tile> tiles_;
+  bool is_whole_ = false;
+  Tiles tiles_;
 };
 
 }  // namespace milepost

@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   const auto built =
       build_map({*map_drive}, map, settings, 2, [](const BuildProgress&) { return true; });
   if (!built) return fail(built.error());
-  Result<std::unique_ptr<MapSource>> source = open_file_source(map);
+  Result<std::shared_ptr<MapSource>> source = open_file_source(map);
   if (!source) return fail(source.error());
   LocalizerSettings localizer_settings;
   localizer_settings.method = *method;

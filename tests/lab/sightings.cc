@@ -11,6 +11,7 @@
 
 #include "client/evaluate/drive_playback.h"
 #include "client/fetch/file_source.h"
+#include "client/fetch/tile_provider.h"
 #include "client/localize/follower.h"
 #include "client/localize/landmark_method.h"
 #include "schema/drive/frame_image.h"
@@ -29,29 +30,52 @@ int fail(const Error& error) {
 }
 
 // Writes what one frame says for the places of one segment.
-Status look_along(Scout& scout, const SegmentSession& session, const NearbySegment& segment,
-                  const QueryFrame& query, const std::string& filename, std::ostream& out) {
-  SeenFrame frame(query);
-  for (double along_m = 0; along_m <= session.line.length_m(); along_m += kPlacesApartM) {
-    const auto sightings = scout.look(frame, AlongRange{along_m, along_m}.widened(kReachM));
-    if (!sightings) return sightings.error();
-    for (const Sighting& sighting : *sightings) {
+Status look_along(Scout& scout, const RouteLine& line, const std::string& segment, SeenFrame& frame,
+                  const std::string& filename, std::ostream& out) {
+  for (double along_m = 0; along_m <= line.length_m(); along_m += kPlacesApartM) {
+    const Looked looked = scout.look(frame, AlongRange{along_m, along_m}.widened(kReachM));
+    if (looked.failure) return *looked.failure;
+    for (const Sighting& sighting : looked.sightings) {
       const TrackedPosition at = sighting.follower->position();
-      const GeoPoint place = at.across ? at.across->position : session.line.point_at(at.along_m);
-      const LineProjection beside = session.line.project(place);
-      const double up_m = place.altitude_m - session.line.point_at(beside.along_m).altitude_m;
-      const double line_deg = session.line.heading_deg_at(beside.along_m);
-      const double heading_deg = at.across ? at.across->heading_deg : line_deg;
+      const GeoPoint place = position_of(at, line);
+      const LineProjection beside = line.project(place);
+      const double up_m = place.altitude_m - line.point_at(beside.along_m).altitude_m;
+      const double line_deg = line.heading_deg_at(beside.along_m);
+      const double heading_deg = at.across ? at.across->camera.heading_deg : line_deg;
       const double turned_deg = std::remainder(heading_deg - line_deg, 360);
       char row[256];
       std::snprintf(row, sizeof row, "%s,%s,%.3f,%.10f,%.10f,%d,%.4f,%.3f,%.3f,%.3f\n",
-                    filename.c_str(), segment.segment.c_str(), at.along_m, place.latitude_deg,
+                    filename.c_str(), segment.c_str(), at.along_m, place.latitude_deg,
                     place.longitude_deg, sighting.matches, sighting.log_bayes_factor,
                     beside.lateral_m, up_m, turned_deg);
       out << row;
     }
   }
   return ok_status();
+}
+
+// All of a layer of a map about a place, in memory.
+Result<std::shared_ptr<const HeldMap>> all_of_the_map(const std::string& file,
+                                                      const std::string& layer,
+                                                      const GeoPoint& about) {
+  constexpr double kAnywhereM = 5000;
+  constexpr std::chrono::minutes kLongest(10);
+  const Result<std::shared_ptr<MapSource>> source = open_file_source(file);
+  if (!source) return source.error();
+  TileProvider provider(*source, layer);
+  Wants wants;
+  wants.around = Surroundings{about, kAnywhereM};
+  const SteadyTime deadline = std::chrono::steady_clock::now() + kLongest;
+  for (const bool with_tiles : {false, true}) {
+    for (const auto& [key, segment] : provider.held()->segments) {
+      if (with_tiles && segment->layer) {
+        wants.tiles.push_back({key, {0, segment->layer->line.length_m()}});
+      }
+    }
+    provider.want(wants);
+    while (!provider.is_settled()) provider.wait_for_change(deadline);
+  }
+  return provider.held();
 }
 
 }  // namespace
@@ -66,24 +90,19 @@ int main(int argc, char** argv) {
   }
   const Result<Drive> drive = read_drive(argv[2]);
   if (!drive) return fail(drive.error());
-  Result<std::unique_ptr<MapSource>> opened = open_file_source(argv[1]);
-  if (!opened) return fail(opened.error());
-  const std::shared_ptr<MapSource> source = std::move(*opened);
   const Method method = landmark_method();
   const QueryCamera query_camera = query_camera_of(drive->camera);
   std::ofstream out(argv[4]);
   out << "filename,segment,along_m,latitude_deg,longitude_deg,matches,log_bayes_factor,"
          "lateral_m,up_m,turned_deg\n";
-  constexpr double kAnywhereM = 5000;
-  const auto segments = source->segments_near(drive->frames.front().position, kAnywhereM);
-  if (!segments) return fail(segments.error());
+  const auto held = all_of_the_map(argv[1], method.layer, drive->frames.front().position);
+  if (!held) return fail(held.error());
   const FrameReader frames(*drive);
-  for (const NearbySegment& segment : *segments) {
-    const auto session = open_session({source, segment.version, segment.segment, method.layer});
-    if (!session) return fail(session.error());
-    const auto scout = method.make_scout(*session, query_camera, ScoutSettings());
+  for (const auto& [key, segment] : (*held)->segments) {
+    if (!segment->layer) return fail(*segment->failure);
+    const auto scout = method.make_scout(*segment->layer, query_camera, ScoutSettings());
     if (!scout) return fail(scout.error());
-    FeatureExtractor extractor(session->feature);
+    FeatureExtractor extractor(segment->layer->parameters->feature);
     for (std::size_t i = 0; i < drive->frames.size(); i += every) {
       const Result<cv::Mat> gray = frames.gray(i);
       if (!gray) return fail(gray.error());
@@ -91,8 +110,9 @@ int main(int argc, char** argv) {
       const QueryFrame query{
           drive->frames[i].timestamp_s,
           [&](const FeatureParameters&) -> const FeatureSet& { return features; }};
-      const Status looked =
-          look_along(**scout, *session, segment, query, drive->frames[i].filename, out);
+      SeenFrame frame(query, **held);
+      const Status looked = look_along(**scout, segment->layer->line, key.segment, frame,
+                                       drive->frames[i].filename, out);
       if (!looked) return fail(looked.error());
     }
   }

@@ -1,7 +1,5 @@
 #include "client/evaluate/baselines/frame_window.h"
 
-#include "schema/tile/codec.h"
-
 namespace milepost {
 
 const DescriptorIndex& IndexedFrame::index() const {
@@ -9,18 +7,17 @@ const DescriptorIndex& IndexedFrame::index() const {
   return *index_;
 }
 
-FrameWindow::FrameWindow(LayerSource from, const WindowReach& reach, const IndexSettings& index)
-    : tiles_(std::move(from), reach, decode_frames), index_(index) {}
+FrameWindow::FrameWindow(SegmentKey segment, const WindowReach& reach, const IndexSettings& index)
+    : tiles_(std::move(segment), reach), index_(index) {}
 
-Status FrameWindow::cover(const AlongRange& range) {
-  const Result<bool> changed = tiles_.cover(range);
-  if (!changed) return changed.error();
-  if (!*changed) return ok_status();
+Covered FrameWindow::cover(const HeldMap& held, const AlongRange& range) {
+  Covered covered = tiles_.cover(held, range);
+  if (!covered.changed) return covered;
   frames_.clear();
-  for (const auto& [index, tile] : tiles_.tiles()) {
+  tiles_.for_each([this](const FrameTile& tile) {
     for (const DatabaseFrame& frame : tile.frames) frames_.emplace_back(frame, index_);
-  }
-  return ok_status();
+  });
+  return covered;
 }
 
 }  // namespace milepost

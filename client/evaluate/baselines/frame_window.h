@@ -29,10 +29,10 @@ class IndexedFrame {
 // Not safe to use from several threads at once.
 class FrameWindow {
  public:
-  FrameWindow(LayerSource from, const WindowReach& reach, const IndexSettings& index);
+  FrameWindow(SegmentKey segment, const WindowReach& reach, const IndexSettings& index);
 
-  // Makes sure that every frame in `range` is held. Errors: those of MapSource::tiles, corrupt.
-  Status cover(const AlongRange& range);
+  // Takes every frame in `range` that is held, and lets go of others.
+  Covered cover(const HeldMap& held, const AlongRange& range);
 
   // By ascending along. Valid until the next cover().
   const std::vector<IndexedFrame>& frames() const { return frames_; }

@@ -14,46 +14,48 @@ constexpr double kStartRefineM = 3;  // to either side of the start, for the sec
 
 class TrackletFollower : public Follower {
  public:
-  TrackletFollower(const SegmentSession& session, const QueryCamera& camera,
+  TrackletFollower(const SegmentLayer& layer, const QueryCamera& camera,
                    const ScoutSettings& settings, const TrackletMethod& method)
-      : feature_(session.feature),
-        scale_ratio_(session.map_focal_px / std::sqrt(camera.focal_x_px * camera.focal_y_px)),
+      : feature_(layer.parameters->feature),
+        scale_ratio_(layer.parameters->map_focal_px /
+                     std::sqrt(camera.focal_x_px * camera.focal_y_px)),
         image_width_px_(camera.width_px),
         min_start_support_(settings.min_start_support),
         on_estimate_(settings.on_estimate),
         method_(method),
-        window_(session.layer, session.items, {settings.reach, method.index}),
+        window_(layer.key, {settings.reach, method.index}),
         tracker_(make_tracker(method)) {}
 
   // A start is found in two looks: all tracklets in `around`, then those near the answer. The
   // tracklets that agree, or nothing where the frame is no evidence.
-  Result<std::optional<int>> begin(SeenFrame& frame, const AlongRange& around) {
+  std::optional<int> begin(SeenFrame& frame, const AlongRange& around) {
     const auto matches = matches_in(frame, around);
-    if (!matches) return matches.error();
-    const auto seen = combine_robustly(estimates_of(*matches), method_.robust);
-    if (!seen || seen->support < min_start_support_) return std::optional<int>();
+    const auto seen = combine_robustly(estimates_of(matches), method_.robust);
+    if (!seen || seen->support < min_start_support_) return std::nullopt;
     const auto near = AlongRange{seen->along_m, seen->along_m}.widened(kStartRefineM);
     const auto again = matches_in(frame, near);
-    if (!again) return again.error();
-    const Measurement first = combine(estimates_of(*again), method_).value_or(*seen);
+    const Measurement first = combine(estimates_of(again), method_).value_or(*seen);
     tracker_->start(frame.timestamp_s(), first);
-    return std::optional(first.support);
+    return first.support;
   }
 
-  double expected_along_m(double timestamp_s) const override {
-    return tracker_->predict(timestamp_s).along_m;
+  // Why tiles are missing that the latest frame would have been compared with.
+  const std::optional<Error>& failure() const { return covered_.failure; }
+
+  AlongRange needed(double timestamp_s) const override {
+    return tracker_->search_region(timestamp_s);
+  }
+
+  TrackedPosition position_at(double timestamp_s) const override {
+    return tracker_->predict(timestamp_s);
   }
 
   Followed follow(SeenFrame& frame) override {
     Followed followed;
     const auto matches = matches_in(frame, tracker_->search_region(frame.timestamp_s()));
-    std::optional<Measurement> measured;
-    if (matches) {
-      tell(*matches);
-      measured = combine(estimates_of(*matches), method_);
-    } else {
-      followed.failure = matches.error();
-    }
+    tell(matches);
+    const auto measured = combine(estimates_of(matches), method_);
+    followed.failure = covered_.failure;
     followed.measured = tracker_->advance(frame.timestamp_s(), measured);
     followed.matches = followed.measured ? measured->support : 0;
     followed.log_bayes_factor = evidence_.of_frame(followed.measured);
@@ -63,9 +65,8 @@ class TrackletFollower : public Follower {
   TrackedPosition position() const override { return tracker_->position(); }
 
  private:
-  Result<std::vector<TrackletMatch>> matches_in(SeenFrame& frame, const AlongRange& region) {
-    const Status covered = window_.cover(region);
-    if (!covered.ok()) return covered.error();
+  std::vector<TrackletMatch> matches_in(SeenFrame& frame, const AlongRange& region) {
+    covered_ = window_.cover(frame.held(), region);
     return match_tracklets(frame.features(feature_), scale_ratio_, image_width_px_, window_, region,
                            method_.match);
   }
@@ -92,29 +93,31 @@ class TrackletFollower : public Follower {
   std::function<void(const TrackletEstimate&)> on_estimate_;
   TrackletMethod method_;
   TrackletWindow window_;
+  Covered covered_;  // of the latest region
   std::unique_ptr<Tracker> tracker_;
   PaperEvidence evidence_;
 };
 
 class TrackletScout : public Scout {
  public:
-  TrackletScout(const SegmentSession& session, const QueryCamera& camera, ScoutSettings settings,
+  TrackletScout(const SegmentLayer& layer, const QueryCamera& camera, ScoutSettings settings,
                 const TrackletMethod& method)
-      : session_(session), camera_(camera), settings_(std::move(settings)), method_(method) {}
+      : layer_(layer), camera_(camera), settings_(std::move(settings)), method_(method) {}
 
-  Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
-    auto follower = std::make_unique<TrackletFollower>(session_, camera_, settings_, method_);
-    const auto begun = follower->begin(frame, around);
-    if (!begun) return begun.error();
-    std::vector<Sighting> sightings;
-    if (*begun)
-      sightings.push_back({std::move(follower), **begun,
-                           std::min<double>(**begun, PaperEvidence::kLogBayesFactor)});
-    return sightings;
+  Looked look(SeenFrame& frame, const AlongRange& around) override {
+    auto follower = std::make_unique<TrackletFollower>(layer_, camera_, settings_, method_);
+    const std::optional<int> begun = follower->begin(frame, around);
+    Looked looked;
+    looked.failure = follower->failure();
+    if (begun) {
+      looked.sightings.push_back(
+          {std::move(follower), *begun, std::min<double>(*begun, PaperEvidence::kLogBayesFactor)});
+    }
+    return looked;
   }
 
  private:
-  const SegmentSession& session_;
+  const SegmentLayer& layer_;
   QueryCamera camera_;
   ScoutSettings settings_;
   TrackletMethod method_;
@@ -123,13 +126,13 @@ class TrackletScout : public Scout {
 }  // namespace
 
 MakeScout tracklet_scouts(const TrackletMethod& method) {
-  return [method](const SegmentSession& session, const QueryCamera& camera,
+  return [method](const SegmentLayer& layer, const QueryCamera& camera,
                   const ScoutSettings& settings) -> Result<std::unique_ptr<Scout>> {
-    const bool fits =
-        session.items == LayerItems::tracklets || session.items == LayerItems::observations;
-    if (!fits) return unusable_items(session);
-    return std::unique_ptr<Scout>(
-        std::make_unique<TrackletScout>(session, camera, settings, method));
+    const LayerItems items = layer.parameters->items;
+    if (items != LayerItems::tracklets && items != LayerItems::observations) {
+      return unusable_items(layer);
+    }
+    return std::unique_ptr<Scout>(std::make_unique<TrackletScout>(layer, camera, settings, method));
   };
 }
 

@@ -1,34 +1,16 @@
 #include "client/evaluate/baselines/tracklet_window.h"
 
-#include "schema/tile/codec.h"
-
 namespace milepost {
-namespace {
 
-// A tile of tracklets as one whose observations were not kept.
-Result<ObservationTile> decode_tracklets(ByteView frame) {
-  const Result<TrackletTile> tile = decode_tile(frame);
-  if (!tile) return tile.error();
-  ObservationTile unobserved{tile->segment, tile->index, tile->model, {}};
-  unobserved.tracklets.reserve(tile->tracklets.size());
-  for (const Tracklet& tracklet : tile->tracklets) unobserved.tracklets.push_back({tracklet, {}});
-  return unobserved;
-}
-
-}  // namespace
-
-TrackletWindow::TrackletWindow(LayerSource from, LayerItems items, const WindowSettings& settings)
-    : tiles_(std::move(from), settings.reach,
-             items == LayerItems::observations ? decode_observations : decode_tracklets),
-      settings_(settings) {
+TrackletWindow::TrackletWindow(SegmentKey segment, const WindowSettings& settings)
+    : tiles_(std::move(segment), settings.reach), settings_(settings) {
   rebuild();
 }
 
-Status TrackletWindow::cover(const AlongRange& range) {
-  const Result<bool> changed = tiles_.cover(range);
-  if (!changed) return changed.error();
-  if (*changed) rebuild();
-  return ok_status();
+Covered TrackletWindow::cover(const HeldMap& held, const AlongRange& range) {
+  Covered covered = tiles_.cover(held, range);
+  if (covered.changed) rebuild();
+  return covered;
 }
 
 void TrackletWindow::rebuild() {
@@ -36,14 +18,14 @@ void TrackletWindow::rebuild() {
   tracks_.clear();
   descriptors_.clear();
   tracklet_of_.clear();
-  for (const auto& [index, tile] : tiles_.tiles()) {
+  tiles_.for_each([this](const ObservationTile& tile) {
     model_ = tile.model;
     for (const ObservedTracklet& observed : tile.tracklets) {
       tracklets_.push_back(observed.tracklet);
       tracks_.push_back(observed.track);
       add_descriptors(tracklets_.size() - 1);
     }
-  }
+  });
   index_ = std::make_unique<DescriptorIndex>(descriptors_, settings_.index);
 }
 

@@ -20,13 +20,10 @@ struct WindowSettings {
 // Not safe to use from several threads at once.
 class TrackletWindow {
  public:
-  // REQUIRES: `items` are tracklets or observations.
-  TrackletWindow(LayerSource from, LayerItems items, const WindowSettings& settings);
+  TrackletWindow(SegmentKey segment, const WindowSettings& settings);
 
-  // Makes sure that every tracklet whose along range meets `range` is held; fetches and lets go.
-  // After an error what was held is held still. Errors: those of MapSource::tiles, corrupt (a
-  // tile).
-  Status cover(const AlongRange& range);
+  // Takes every tracklet that is held and whose along range meets `range`, and lets go of others.
+  Covered cover(const HeldMap& held, const AlongRange& range);
 
   // Valid until the next cover().
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }

@@ -44,12 +44,12 @@ class PathCosts {
 
 class WarpFollower : public Follower {
  public:
-  WarpFollower(const SegmentSession& session, const QueryCamera& camera,
-               const ScoutSettings& settings, const WarpMethod& method)
-      : session_(session),
+  WarpFollower(const SegmentLayer& layer, const QueryCamera& camera, const ScoutSettings& settings,
+               const WarpMethod& method)
+      : layer_(layer),
         camera_(camera),
         method_(method),
-        window_(session.layer, settings.reach, method.index) {}
+        window_(layer.key, settings.reach, method.index) {}
 
   // The frames that match at the best place of `around`, and its cost; nothing where there is no
   // frame to compare with.
@@ -57,32 +57,37 @@ class WarpFollower : public Follower {
     int matches = 0;
     double cost = 0;
   };
-  Result<std::optional<Begun>> begin(SeenFrame& frame, const AlongRange& around) {
-    const Result<Comparison> seen = compare(frame, around);
-    if (!seen) return seen.error();
-    if (!seen->compared) return std::optional<Begun>();
-    row_ = first_row(seen->costs);
+  std::optional<Begun> begin(SeenFrame& frame, const AlongRange& around) {
+    const Comparison seen = compare(frame, around);
+    if (!seen.compared) return std::nullopt;
+    row_ = first_row(seen.costs);
     const double cost = best_end(row_).cost;
     settle(frame.timestamp_s());
-    return std::optional(Begun{matches_at_best(*seen), cost});
+    return Begun{matches_at_best(seen), cost};
   }
 
-  double expected_along_m(double /*timestamp_s*/) const override { return best_end(row_).along_m; }
+  // Why tiles are missing that the latest frame would have been compared with.
+  const std::optional<Error>& failure() const { return covered_.failure; }
+
+  TrackedPosition position_at(double /*timestamp_s*/) const override { return position(); }
+
+  AlongRange needed(double timestamp_s) const override {
+    const double latest_m = best_end(row_).along_m;
+    return {latest_m - method_.band_m, latest_m + max_step_m(timestamp_s) + method_.band_m};
+  }
 
   Followed follow(SeenFrame& frame) override {
-    const double max_step_m =
-        std::max(method_.max_speed_mps * (frame.timestamp_s() - latest_s_), method_.min_step_m);
-    const double latest_m = best_end(row_).along_m;
-    const AlongRange band = {latest_m - method_.band_m, latest_m + max_step_m + method_.band_m};
-    const Result<Comparison> seen = compare(frame, band);
-    if (!seen) return {.failure = seen.error()};
-    WarpRow next = next_row(row_, seen->costs, max_step_m);
-    if (!seen->compared || next.empty()) return {.log_bayes_factor = evidence_.of_frame(false)};
+    const Comparison seen = compare(frame, needed(frame.timestamp_s()));
+    WarpRow next = next_row(row_, seen.costs, max_step_m(frame.timestamp_s()));
+    if (!seen.compared || next.empty()) {
+      return {.log_bayes_factor = evidence_.of_frame(false), .failure = covered_.failure};
+    }
     row_ = std::move(next);
     settle(frame.timestamp_s());
     return {.measured = true,
-            .matches = matches_at_best(*seen),
-            .log_bayes_factor = evidence_.of_frame(true)};
+            .matches = matches_at_best(seen),
+            .log_bayes_factor = evidence_.of_frame(true),
+            .failure = covered_.failure};
   }
 
   // As far off as frames lie apart, and as the ends of paths that are as good as the best within
@@ -103,9 +108,12 @@ class WarpFollower : public Follower {
   }
 
  private:
-  Result<Comparison> compare(SeenFrame& frame, const AlongRange& band) {
-    const Status covered = window_.cover(band);
-    if (!covered.ok()) return covered.error();
+  double max_step_m(double timestamp_s) const {
+    return std::max(method_.max_speed_mps * (timestamp_s - latest_s_), method_.min_step_m);
+  }
+
+  Comparison compare(SeenFrame& frame, const AlongRange& band) {
+    covered_ = window_.cover(frame.held(), band);
     Comparison comparison;
     for (const IndexedFrame& map_frame : window_.frames()) {
       const double along_m = map_frame.frame().along_m;
@@ -126,9 +134,9 @@ class WarpFollower : public Follower {
       return image_distance(frame.frame().image(), *map_frame.frame().image);
     }
     const double query_focal_px = std::sqrt(camera_.focal_x_px * camera_.focal_y_px);
-    const auto change =
-        scale_change(frame.features(session_.feature), session_.map_focal_px / query_focal_px,
-                     camera_.width_px, map_frame, method_.scale);
+    const auto change = scale_change(frame.features(layer_.parameters->feature),
+                                     layer_.parameters->map_focal_px / query_focal_px,
+                                     camera_.width_px, map_frame, method_.scale);
     if (!change) return std::nullopt;
     matches = change->matches;
     return change->mean;
@@ -152,11 +160,12 @@ class WarpFollower : public Follower {
     return (row_.back().along_m - row_.front().along_m) / static_cast<double>(row_.size() - 1);
   }
 
-  const SegmentSession& session_;
+  const SegmentLayer& layer_;
   QueryCamera camera_;
   WarpMethod method_;
   FrameWindow window_;
-  WarpRow row_;  // of the latest frame; its least cost is 0
+  Covered covered_;  // of the latest band
+  WarpRow row_;      // of the latest frame; its least cost is 0
   PathCosts path_costs_;
   double latest_s_ = 0;
   PaperEvidence evidence_;
@@ -164,24 +173,25 @@ class WarpFollower : public Follower {
 
 class WarpScout : public Scout {
  public:
-  WarpScout(const SegmentSession& session, const QueryCamera& camera, ScoutSettings settings,
+  WarpScout(const SegmentLayer& layer, const QueryCamera& camera, ScoutSettings settings,
             const WarpMethod& method)
-      : session_(session), camera_(camera), settings_(std::move(settings)), method_(method) {}
+      : layer_(layer), camera_(camera), settings_(std::move(settings)), method_(method) {}
 
-  Result<std::vector<Sighting>> look(SeenFrame& frame, const AlongRange& around) override {
-    auto follower = std::make_unique<WarpFollower>(session_, camera_, settings_, method_);
+  Looked look(SeenFrame& frame, const AlongRange& around) override {
+    auto follower = std::make_unique<WarpFollower>(layer_, camera_, settings_, method_);
     const auto begun = follower->begin(frame, around);
-    if (!begun) return begun.error();
-    std::vector<Sighting> sightings;
-    if (*begun)
-      sightings.push_back(
-          {std::move(follower), (*begun)->matches,
-           PaperEvidence::kLogBayesFactor - kLogBayesFactorOfCost * (*begun)->cost});
-    return sightings;
+    Looked looked;
+    looked.failure = follower->failure();
+    if (begun) {
+      looked.sightings.push_back(
+          {std::move(follower), begun->matches,
+           PaperEvidence::kLogBayesFactor - kLogBayesFactorOfCost * begun->cost});
+    }
+    return looked;
   }
 
  private:
-  const SegmentSession& session_;
+  const SegmentLayer& layer_;
   QueryCamera camera_;
   ScoutSettings settings_;
   WarpMethod method_;
@@ -190,10 +200,10 @@ class WarpScout : public Scout {
 }  // namespace
 
 MakeScout warp_scouts(const WarpMethod& method) {
-  return [method](const SegmentSession& session, const QueryCamera& camera,
+  return [method](const SegmentLayer& layer, const QueryCamera& camera,
                   const ScoutSettings& settings) -> Result<std::unique_ptr<Scout>> {
-    if (session.items != LayerItems::frames) return unusable_items(session);
-    return std::unique_ptr<Scout>(std::make_unique<WarpScout>(session, camera, settings, method));
+    if (layer.parameters->items != LayerItems::frames) return unusable_items(layer);
+    return std::unique_ptr<Scout>(std::make_unique<WarpScout>(layer, camera, settings, method));
   };
 }
 

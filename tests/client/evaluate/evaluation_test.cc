@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/evaluate/output.h"
+#include "tests/client/fetch/memory_source.h"
 
 namespace milepost {
 namespace {
@@ -27,36 +28,19 @@ GeoPoint at(double east_m, double north_m) {
 }
 
 // A map of that one road, with 200 kB in every layer.
-class RoadMap : public MapSource {
+class RoadMap : public testing::MemorySource {
  public:
+  RoadMap() : MemorySource({"town", "b1"}, "layer", "{}") {
+    add({"road", kRoadM, {at(0, 0), at(kRoadM, 0)}, {}}, {});
+  }
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& /*position*/,
                                                    double /*radius_m*/) override {
     return std::vector<NearbySegment>{{{"town", "b1"}, "road", 0, 0, kRoadM}};
-  }
-  Result<std::vector<MapVersion>> maps() override {
-    return std::vector<MapVersion>{{"town", "b1"}};
-  }
-  Result<MapDescription> describe(const MapVersion& version) override {
-    return MapDescription{version, {}, ""};
-  }
-  Result<SegmentDescription> segment(const MapVersion& /*version*/,
-                                     const std::string& segment) override {
-    return SegmentDescription{segment, kRoadM, {at(0, 0), at(kRoadM, 0)}, {}};
-  }
-  Result<std::vector<TileFrame>> tiles(const MapVersion& /*version*/,
-                                       const std::string& /*segment*/, const std::string& /*layer*/,
-                                       const AlongRange& /*range*/) override {
-    return std::vector<TileFrame>();
-  }
-  Result<std::vector<CellFrame>> cells(const MapVersion& /*version*/, const std::string& /*layer*/,
-                                       const Bounds& /*box*/) override {
-    return std::vector<CellFrame>();
   }
   Result<std::uint64_t> layer_bytes(const MapVersion& /*version*/, const std::string& /*segment*/,
                                     const std::string& /*layer*/) override {
     return std::uint64_t{200'000};
   }
-  SourceCounters counters() const override { return {}; }
 };
 
 // What the method says of a frame.

@@ -56,7 +56,7 @@ class FileSourceTest : public ::testing::Test {
   TempFolder folder_;
   std::filesystem::path file_ = folder_ / "town.mpm";
   MapVersion version_;
-  std::unique_ptr<MapSource> source_;
+  std::shared_ptr<MapSource> source_;
 };
 
 TEST_F(FileSourceTest, FindsTheSegmentsNearby) {

@@ -22,16 +22,16 @@ class MisbehavingServerTest : public ::testing::Test {
  protected:
   using IsTarget = bool (*)(const std::string& target);
 
-  std::unique_ptr<MapSource> open_source() { return open_source(server_.url()); }
+  std::shared_ptr<MapSource> open_source() { return open_source(server_.url()); }
 
-  std::unique_ptr<MapSource> open_source(const std::string& url) {
+  std::shared_ptr<MapSource> open_source(const std::string& url) {
     HttpSourceSettings settings;
     settings.server_url = url;
     settings.cache_directory = cache_.path();
     settings.cache_limit_bytes = cache_limit_bytes_;
     HttpSourceParts parts;
     parts.transport = make_curl_transport({5, 10});
-    parts.sleep = [this](double pause_s) { pauses_s_.push_back(pause_s); };
+    parts.sleep = [this](double pause_s, const Stopped&) { pauses_s_.push_back(pause_s); };
     parts.steady_s = [this] { return now_s_.load(); };
     auto source = make_http_source(settings, std::move(parts));
     EXPECT_TRUE(source.ok());

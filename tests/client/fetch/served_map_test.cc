@@ -65,7 +65,7 @@ class ServedMapTest : public ::testing::Test {
     server_ = std::move(started).value();
   }
 
-  std::unique_ptr<MapSource> open_source(std::uint64_t cache_limit_bytes = 1U << 30U) const {
+  std::shared_ptr<MapSource> open_source(std::uint64_t cache_limit_bytes = 1U << 30U) const {
     HttpSourceSettings settings;
     settings.cache_limit_bytes = cache_limit_bytes;
     settings.server_url = "http://" + server_->address();

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <chrono>
+
 #include "tests/support/scripted_server.h"
 
 namespace milepost::testing {
@@ -19,10 +21,13 @@ class TransportTest : public ::testing::Test {
  protected:
   HttpAnswer get(const std::string& path, std::uint64_t limit_bytes = kPlenty) {
     body_.clear();
-    return transport_->get(server_.url() + path, limit_bytes, [this](ByteView piece) {
-      body_ += as_text(piece);
-      return ok_status();
-    });
+    return transport_->get(
+        server_.url() + path, limit_bytes,
+        [this](ByteView piece) {
+          body_ += as_text(piece);
+          return ok_status();
+        },
+        stopped_);
   }
 
   static Error error_of(const HttpAnswer& answer) {
@@ -43,6 +48,7 @@ class TransportTest : public ::testing::Test {
       {"Content-Type", "application/problem+json"}};
   ScriptedAnswer answer_;
   std::string body_;
+  Stopped stopped_;
   ScriptedServer server_{[this](const std::string& target) -> ScriptedAnswer {
     if (target == "/target") return {.body = "the target"};
     if (target == "/loop") return {.status = 302, .headers = {{"Location", "/loop"}}};
@@ -91,7 +97,7 @@ TEST_F(TransportTest, FollowsNoRedirectToNowhere) {
 
 TEST_F(TransportTest, AsksNoFile) {
   const HttpAnswer answer =
-      transport_->get("file:///etc/hostname", kPlenty, [](ByteView) { return ok_status(); });
+      transport_->get("file:///etc/hostname", kPlenty, [](ByteView) { return ok_status(); }, {});
   EXPECT_EQ(error_of(answer).code, ErrorCode::invalid_input);
   EXPECT_THAT(error_of(answer).what, HasSubstr("Protocol"));
 }
@@ -209,9 +215,12 @@ TEST_F(TransportTest, ABodyBeyondTheLimitIsRefused) {
 
 TEST_F(TransportTest, TheSinkEndsTheRequest) {
   answer_.body = "abc";
-  const HttpAnswer answer = transport_->get(server_.url(), kPlenty, [](ByteView) -> Status {
-    return Error{ErrorCode::corrupt, "here", "enough", ""};
-  });
+  const HttpAnswer answer =
+      transport_->get(server_.url(), kPlenty,
+                      [](ByteView) -> Status {
+                        return Error{ErrorCode::corrupt, "here", "enough", ""};
+                      },
+                      {});
   EXPECT_EQ(error_of(answer).line(), "here: enough");
 }
 
@@ -225,6 +234,27 @@ TEST_F(TransportTest, ABodyThatBreaksOffIsUnavailable) {
 TEST_F(TransportTest, ASilentServerIsUnavailable) {
   answer_.silent = true;
   EXPECT_EQ(error_of(get("/")).code, ErrorCode::unavailable);
+}
+
+TEST_F(TransportTest, AServerThatHangsIsLeftWhenItIsStopped) {
+  answer_.silent = true;
+  transport_ = make_curl_transport({600, 600});
+  const auto began = std::chrono::steady_clock::now();
+  stopped_ = [&] {
+    return std::chrono::steady_clock::now() - began > std::chrono::milliseconds(50);
+  };
+  EXPECT_EQ(error_of(get("/")).code, ErrorCode::cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(60));
+}
+
+TEST_F(TransportTest, ConnectionsAreUsedAgainAfterARequestThatWasStopped) {
+  answer_.silent = true;
+  int asked = 0;
+  stopped_ = [&] { return ++asked > 3; };
+  EXPECT_EQ(error_of(get("/")).code, ErrorCode::cancelled);
+  stopped_ = {};
+  EXPECT_TRUE(get("/target").status.ok());
+  EXPECT_EQ(body_, "the target");
 }
 
 TEST_F(TransportTest, NoServerIsUnavailable) {
@@ -244,8 +274,8 @@ TEST_F(TransportTest, TellsTheRetryAfter) {
 TEST_F(TransportTest, TakesTheProxyFromTheEnvironment) {
   answer_.body = "through the proxy";
   setenv("http_proxy", server_.url().c_str(), 1);
-  const HttpAnswer answer =
-      transport_->get("http://milepost.invalid/x", kPlenty, [](ByteView) { return ok_status(); });
+  const HttpAnswer answer = transport_->get("http://milepost.invalid/x", kPlenty,
+                                            [](ByteView) { return ok_status(); }, {});
   unsetenv("http_proxy");
   EXPECT_TRUE(answer.status.ok());
   EXPECT_THAT(server_.requests(), ::testing::ElementsAre("http://milepost.invalid/x"));

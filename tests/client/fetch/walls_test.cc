@@ -33,7 +33,7 @@ const Wall kInBoth = wall(2, 4.9, 2, 5.1);
 class WallsTest : public ::testing::Test {
  protected:
   // A map file of a layer with those cells, opened.
-  std::unique_ptr<MapSource> map_of(const std::string& layer, const std::vector<CellFrame>& cells) {
+  std::shared_ptr<MapSource> map_of(const std::string& layer, const std::vector<CellFrame>& cells) {
     auto writer = MapWriter::create(folder_ / "town.map");
     EXPECT_TRUE(writer.ok());
     EXPECT_TRUE(writer->add_layer(layer, R"({"items":"walls"})").ok());

@@ -12,7 +12,6 @@ namespace milepost {
 namespace {
 
 using testing::LandmarkRoad;
-using testing::LandmarkRoadMap;
 using testing::RoadPose;
 
 constexpr double kFrameM = 1;      // between frames ...
@@ -37,7 +36,7 @@ class FollowingByLandmarks : public ::testing::Test {
   static const LandmarkRoad& road() { return testing::shared_road(); }
 
   static LocalizerSettings settings() {
-    LocalizerSettings settings = testing::settings_without_prefetcher();
+    LocalizerSettings settings = testing::settings_of_a_short_reach();
     settings.scout.reach = {5, 5};  // so the source is asked often
     return settings;
   }
@@ -57,6 +56,7 @@ class FollowingByLandmarks : public ::testing::Test {
 
   Fix fix_from_truth(bool blind = false) {
     const FeatureSet set = blind ? FeatureSet() : road().seen_from(truth_, mounting_deg_, random_);
+    testing::wait_for_tiles(localizer_, time_s_);
     const auto fix = localizer_.localize(
         {time_s_, [&](const FeatureParameters&) -> const FeatureSet& { return set; }});
     time_s_ += kFrameM / kSpeedMps;
@@ -86,7 +86,7 @@ class FollowingByLandmarks : public ::testing::Test {
     }
   }
 
-  std::shared_ptr<LandmarkRoadMap> map_ = std::make_shared<LandmarkRoadMap>(road());
+  std::shared_ptr<testing::MemorySource> map_ = testing::map_of(road());
   Localizer localizer_{map_, road().query_camera(), settings()};
   double mounting_deg_ = 0;
   double time_s_ = 0;
@@ -131,6 +131,7 @@ TEST_F(FollowingByLandmarks, AtAnEndOfTheMapSigmaIsWider) {
     std::vector<double> sigmas_m;
     for (Localizer* localizer : {&localizer_, &other}) {
       if (along_m == 0) localizer->observe({time_s_, road().line().point_at(2), 8});
+      testing::wait_for_tiles(*localizer, time_s_);
       sigmas_m.push_back(localizer->localize({time_s_, features})->sigma_m);
     }
     ratios[along_m] = sigmas_m[0] / sigmas_m[1];
@@ -246,10 +247,10 @@ TEST_F(FollowingByLandmarks, DrivesOnWhileTheSourceFails) {
   begin_at(100);
   expect_tracked_between(101, 120);
   EXPECT_FALSE(localizer_.noted_error());
-  map_->fails = true;
+  map_->be_unavailable();
   int predicted = 0;
   double along_m = 120;
-  for (; predicted < 3 && along_m < 140; along_m += kFrameM) {
+  for (; predicted < 3 && along_m < 200; along_m += kFrameM) {
     const Fix on = fix(along_m);
     if (on.status == FixStatus::tracking) continue;  // of what is held
     EXPECT_EQ(on.status, FixStatus::predicted);
@@ -259,7 +260,8 @@ TEST_F(FollowingByLandmarks, DrivesOnWhileTheSourceFails) {
   EXPECT_EQ(predicted, 3);
   ASSERT_TRUE(localizer_.noted_error());
   EXPECT_EQ(localizer_.noted_error()->code, ErrorCode::unavailable);
-  map_->fails = false;
+  map_->be_unavailable(false);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // it is asked again
   expect_tracked_between(along_m, along_m + 10);
 }
 

@@ -60,18 +60,6 @@ Eigen::Vector3d vector_from(const EnuPoint& point) {
 
 }  // namespace
 
-std::vector<Descriptor> unlike_descriptors(std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform;
-  std::vector<Descriptor> descriptors(count);
-  for (Descriptor& descriptor : descriptors) {
-    for (std::uint8_t& value : descriptor) {
-      value = static_cast<std::uint8_t>(255 * std::pow(uniform(random), 6));
-    }
-  }
-  return descriptors;
-}
-
 LandmarkRoad::LandmarkRoad()
     : line_(road_line()),
       codebook_(Codebook::trained(unlike_descriptors(500, 1), kDescriptorStep)) {
@@ -161,54 +149,31 @@ const LandmarkRoad& shared_road() {
   return road;
 }
 
-LocalizerSettings settings_without_prefetcher() {
+LocalizerSettings settings_of_a_short_reach() {
   LocalizerSettings settings;
   settings.prefetch_m = 0;
+  settings.provider.kept_m = 0;
+  settings.provider.backoff.first_s = 0.001;
   return settings;
 }
 
-LandmarkRoadMap::LandmarkRoadMap(const LandmarkRoad& road) : description_(road.description()) {
+std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road) {
   const nlohmann::json parameters = {
       {"items", "landmarks"},
       {"focal_px", {700, 700}},
       {"codebook", nlohmann::json::parse(road.codebook().to_json())}};
-  layer_parameters_ = parameters.dump();
-  add_line(kVersion, description_, lines_);
+  auto map = std::make_shared<MemorySource>(kVersion, "tracklets", parameters.dump());
+  std::vector<MemorySource::Tile> tiles;
   for (const LandmarkTile& tile : road.tiles()) {
-    tiles_.push_back({tile.index, tile.along(), encode_landmarks(tile)});
+    tiles.push_back({tile.along(), encode_landmarks(tile)});
   }
+  map->add(road.description(), std::move(tiles));
+  return map;
 }
 
-Result<std::vector<TileFrame>> LandmarkRoadMap::tiles(const MapVersion& /*version*/,
-                                                      const std::string& /*segment*/,
-                                                      const std::string& /*layer*/,
-                                                      const AlongRange& range) {
-  if (fails) return Error{ErrorCode::unavailable, "road", "the source fails", ""};
-  std::vector<TileFrame> met;
-  for (const StoredTile& tile : tiles_) {
-    if (tile.along.meets(range)) met.push_back({tile.index, tile.frame});
-  }
-  return met;
-}
-
-Result<std::vector<NearbySegment>> LandmarkRoadMap::segments_near(const GeoPoint& position,
-                                                                  double radius_m) {
-  return lines_near(lines_, position, radius_m);
-}
-
-Result<MapDescription> LandmarkRoadMap::describe(const MapVersion& version) {
-  return MapDescription{version, {{"tracklets", layer_parameters_}}, to_json(FeatureParameters())};
-}
-
-Result<SegmentDescription> LandmarkRoadMap::segment(const MapVersion& /*version*/,
-                                                    const std::string& /*segment*/) {
-  return description_;
-}
-
-Result<std::uint64_t> LandmarkRoadMap::layer_bytes(const MapVersion& /*version*/,
-                                                   const std::string& /*segment*/,
-                                                   const std::string& /*layer*/) {
-  return Error{ErrorCode::not_found, "road", "only tiles", ""};
+void wait_for_tiles(Localizer& localizer, double timestamp_s) {
+  constexpr std::chrono::seconds kLongest(30);
+  localizer.wait_for_tiles(timestamp_s, std::chrono::steady_clock::now() + kLongest);
 }
 
 }  // namespace milepost::testing

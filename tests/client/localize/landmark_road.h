@@ -11,11 +11,10 @@
 #include "schema/geo/camera_pose.h"
 #include "schema/geo/route_line.h"
 #include "schema/tile/landmark.h"
+#include "tests/client/fetch/memory_source.h"
+#include "tests/support/descriptors.h"
 
 namespace milepost::testing {
-
-// Descriptors that do not resemble each other.
-std::vector<Descriptor> unlike_descriptors(std::size_t count, unsigned seed);
 
 // Where a vehicle is on the road.
 struct RoadPose {
@@ -64,43 +63,13 @@ class LandmarkRoad {
 // The road, made once for all tests.
 const LandmarkRoad& shared_road();
 
-// Of the default method, which asks the source itself.
-LocalizerSettings settings_without_prefetcher();
+// With a map beside which little is wanted, and which is asked again soon after it failed.
+LocalizerSettings settings_of_a_short_reach();
 
-// The map of the road; its tiles can be made to fail.
-class LandmarkRoadMap : public MapSource {
- public:
-  explicit LandmarkRoadMap(const LandmarkRoad& road);
+// The map of the road.
+std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road);
 
-  bool fails = false;  // from now on
-
-  Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
-                                       const std::string& layer, const AlongRange& range) override;
-  Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
-                                                   double radius_m) override;
-  Result<std::vector<MapVersion>> maps() override { return std::vector<MapVersion>{}; }
-  Result<MapDescription> describe(const MapVersion& version) override;
-  Result<SegmentDescription> segment(const MapVersion& version,
-                                     const std::string& segment) override;
-  Result<std::vector<CellFrame>> cells(const MapVersion& /*version*/, const std::string& /*layer*/,
-                                       const Bounds& /*box*/) override {
-    return std::vector<CellFrame>{};
-  }
-  Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
-                                    const std::string& layer) override;
-  SourceCounters counters() const override { return {}; }
-
- private:
-  struct StoredTile {
-    std::uint32_t index = 0;
-    AlongRange along;
-    Bytes frame;
-  };
-
-  SegmentDescription description_;
-  std::string layer_parameters_;
-  std::vector<KnownLine> lines_;
-  std::vector<StoredTile> tiles_;
-};
+// Waits until the localizer has what it wants of the map, or was refused it.
+void wait_for_tiles(Localizer& localizer, double timestamp_s);
 
 }  // namespace milepost::testing

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "schema/tile/codec.h"
-#include "tests/client/localize/layer_of_tiles.h"
+#include "tests/client/fetch/held_segment.h"
 
 namespace milepost {
 namespace {
@@ -27,7 +26,7 @@ RouteLine hill() {
 class LandmarksOnAHill : public ::testing::Test {
  protected:
   // A tile whose origin is `origin_m`, with one landmark at a point of the frame at the start.
-  Bytes tile(std::uint32_t index, double origin_m, const EnuPoint& from_start) const {
+  DecodedTile tile(std::uint32_t index, double origin_m, const EnuPoint& from_start) const {
     Landmark landmark;
     landmark.descriptor[0] = static_cast<std::int8_t>(index);
     landmark.position = LocalFrame(line_.point_at(origin_m))
@@ -37,21 +36,24 @@ class LandmarksOnAHill : public ::testing::Test {
     landmark.size_sigma = 0.1F;
     landmark.along = {origin_m, origin_m + 20};
     landmark.observations = 5;
-    return encode_landmarks({"hill", index, origin_m, {landmark}});
+    return LandmarkTile{"hill", index, origin_m, {landmark}};
   }
 
-  LandmarkWindow window(std::vector<testing::LayerOfTiles::Tile> tiles) const {
-    auto source = std::make_shared<testing::LayerOfTiles>(std::move(tiles));
-    return {{source, {}, "hill", "tracklets"}, {5, 5}, line_};
+  // Of the map as it is held.
+  LandmarkWindow window(const std::vector<testing::IndexedTile>& tiles) {
+    held_ = testing::held_map(testing::layer_of(kHill, line_, {}, tiles), tiles);
+    return {kHill, {5, 5}, line_};
   }
 
+  inline static const SegmentKey kHill = {{"town", "build"}, "hill"};
   RouteLine line_ = hill();
+  HeldMap held_;
 };
 
 TEST_F(LandmarksOnAHill, PlacesOfTwoTilesAgreeInOneFrame) {
   const EnuPoint corner = {100, 130, 12};  // mapped twice
   auto window = this->window({{{40, 60}, tile(2, 40, corner)}, {{60, 80}, tile(3, 60, corner)}});
-  ASSERT_TRUE(window.cover({50, 70}).ok());
+  ASSERT_TRUE(window.cover(held_, {50, 70}).complete);
   ASSERT_EQ(window.landmarks().size(), 2U);
   for (const PlacedLandmark& landmark : window.landmarks()) expect_near(landmark.enu_m, corner);
   const PlacedLandmark& second = window.landmarks()[1];
@@ -66,7 +68,7 @@ TEST_F(LandmarksOnAHill, PlacesOfTwoTilesAgreeInOneFrame) {
 // From the line in the middle of where it was seen: 70 m of 400.
 TEST_F(LandmarksOnAHill, RaysLeadFromWhereItWasMapped) {
   auto window = this->window({{{60, 80}, tile(3, 60, {42 + 16, 56 - 12, 3.5})}});
-  ASSERT_TRUE(window.cover({60, 70}).ok());
+  ASSERT_TRUE(window.cover(held_, {60, 70}).complete);
   const Eigen::Vector3d& ray = window.landmarks().at(0).mapping_ray;
   EXPECT_NEAR(ray.x(), 0.8, 1e-3);  // 20 m to the right
   EXPECT_NEAR(ray.y(), -0.6, 1e-3);
@@ -76,7 +78,7 @@ TEST_F(LandmarksOnAHill, RaysLeadFromWhereItWasMapped) {
 TEST_F(LandmarksOnAHill, ANewOriginMovesThem) {
   const EnuPoint corner = {100, 130, 12};
   auto window = this->window({{{40, 60}, tile(2, 40, corner)}});
-  ASSERT_TRUE(window.cover({50, 55}).ok());
+  ASSERT_TRUE(window.cover(held_, {50, 55}).complete);
   window.set_origin(LocalFrame(kStart).geo_from_enu({60, 80, 5}));
   ASSERT_EQ(window.landmarks().size(), 1U);
   expect_near(window.landmarks()[0].enu_m + Eigen::Vector3d(60, 80, 5), corner);
@@ -85,27 +87,47 @@ TEST_F(LandmarksOnAHill, ANewOriginMovesThem) {
 
 TEST_F(LandmarksOnAHill, LetsGoOfWhatLiesBehind) {
   auto window = this->window({{{40, 60}, tile(2, 40, {})}, {{100, 120}, tile(5, 100, {})}});
-  ASSERT_TRUE(window.cover({50, 55}).ok());
-  ASSERT_TRUE(window.cover({90, 105}).ok());
+  ASSERT_TRUE(window.cover(held_, {50, 55}).complete);
+  ASSERT_TRUE(window.cover(held_, {90, 105}).complete);
   ASSERT_EQ(window.landmarks().size(), 1U);
   EXPECT_EQ(window.landmarks()[0].descriptor[0], 5);
 }
 
-TEST_F(LandmarksOnAHill, ACorruptTileKeepsWhatWasHeld) {
-  Bytes broken = tile(3, 60, {});
-  broken[broken.size() / 2] ^= 0xff;
+TEST_F(LandmarksOnAHill, UsesWhatIsHeldWhereATileIsMissing) {
   const EnuPoint corner = {100, 130, 12};
-  auto window = this->window({{{40, 60}, tile(2, 40, corner)}, {{70, 90}, broken}});
-  ASSERT_TRUE(window.cover({50, 55}).ok());
-  const Status status = window.cover({50, 75});
-  ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().code, ErrorCode::corrupt);
-  ASSERT_EQ(window.landmarks().size(), 1U);
-  window.set_origin(kStart);  // places them again
+  const Error refused = {ErrorCode::unavailable, "tile 1", "was refused", ""};
+  auto window = this->window({{{40, 60}, tile(2, 40, corner)}, {{70, 90}, std::nullopt, refused}});
+  const Covered covered = window.cover(held_, {50, 75});
+  EXPECT_FALSE(covered.complete);
+  ASSERT_TRUE(covered.failure);
+  EXPECT_EQ(covered.failure->where, "tile 1");
   ASSERT_EQ(window.landmarks().size(), 1U);
   expect_near(window.landmarks()[0].enu_m, corner);
-  EXPECT_TRUE(window.cover({50, 55}).ok());
-  EXPECT_FALSE(window.cover({50, 75}).ok());
+  EXPECT_TRUE(window.cover(held_, {50, 60}).complete);  // nothing is missing there
+}
+
+TEST_F(LandmarksOnAHill, TakesATileWhenItArrives) {
+  auto window = this->window({{{40, 60}, tile(0, 40, {})}, {{60, 80}, std::nullopt}});
+  const Covered before = window.cover(held_, {50, 70});
+  EXPECT_FALSE(before.complete);
+  EXPECT_FALSE(before.failure);  // it may still arrive
+  this->window({{{40, 60}, tile(0, 40, {})}, {{60, 80}, tile(1, 60, {})}});
+  EXPECT_TRUE(window.cover(held_, {50, 70}).changed);
+  EXPECT_EQ(window.landmarks().size(), 2U);
+  held_ = {};
+  EXPECT_TRUE(window.cover(held_, {52, 68}).complete);  // what was taken stays
+  EXPECT_EQ(window.landmarks().size(), 2U);
+}
+
+TEST_F(LandmarksOnAHill, OfASegmentWithoutDocumentsSaysWhyTheyAreMissing) {
+  auto window = this->window({});
+  HeldSegment unopened;
+  unopened.failure = Error{ErrorCode::corrupt, "segment", "is no JSON", ""};
+  held_.segments[kHill] = std::make_shared<const HeldSegment>(unopened);
+  const Covered covered = window.cover(held_, {50, 70});
+  EXPECT_FALSE(covered.complete);
+  ASSERT_TRUE(covered.failure);
+  EXPECT_EQ(covered.failure->code, ErrorCode::corrupt);
 }
 
 }  // namespace

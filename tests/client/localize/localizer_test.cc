@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "client/evaluate/baselines/methods.h"
-#include "client/fetch/nearby.h"
 #include "schema/tile/codec.h"
-#include "tests/client/localize/layer_of_tiles.h"
+#include "tests/client/fetch/memory_source.h"
+#include "tests/client/localize/landmark_road.h"
 
 namespace milepost {
 namespace {
@@ -36,9 +36,9 @@ ImageDescriptor image_beside(double along_m) {
 }
 
 // Frames a little beyond the end of the line, in tiles of 50 m.
-std::vector<testing::LayerOfTiles::Tile> tiles_of_a_road(ImageDescriptor (*image_of)(double)) {
+std::vector<testing::MemorySource::Tile> tiles_of_a_road(ImageDescriptor (*image_of)(double)) {
   constexpr double kTileM = 50;
-  std::vector<testing::LayerOfTiles::Tile> tiles;
+  std::vector<testing::MemorySource::Tile> tiles;
   for (double from_m = 0; from_m <= kLengthM; from_m += kTileM) {
     FrameTile tile{"road", static_cast<std::uint32_t>(tiles.size()), {}};
     for (double along_m = from_m; along_m < from_m + kTileM; along_m += kSpacingM) {
@@ -49,52 +49,19 @@ std::vector<testing::LayerOfTiles::Tile> tiles_of_a_road(ImageDescriptor (*image
   return tiles;
 }
 
-MapVersion build_of_map(char digit) { return {"map", std::string(32, digit)}; }
+std::string build_of_map(char digit) { return std::string(32, digit); }
 
-// A map of the one road, which may be built anew, become unavailable, or have another road beside.
-class OneRoad : public testing::LayerOfTiles {
- public:
-  OneRoad() : LayerOfTiles(tiles_of_a_road(image_from)) { build_anew('1'); }
+SegmentDescription straight(const std::string& segment) {
+  return {segment, kLengthM, {kStart, kEnd}, {}};
+}
 
-  void build_anew(char digit) {
-    current_ = build_of_map(digit);
-    lines_.clear();
-    add_line(current_, description("road"), lines_);
-  }
-  void add_road_beside() { add_line(current_, description("beside"), lines_); }
-  void be_unavailable() { is_available_ = false; }
-
-  Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
-                                       const std::string& layer, const AlongRange& range) override {
-    if (!is_available_) return Error{ErrorCode::unavailable, "map", "does not answer", "wait"};
-    if (version != current_) return Error{ErrorCode::gone, "map", "was built anew", "look it up"};
-    return segment == "road" ? LayerOfTiles::tiles(version, segment, layer, range)
-                             : beside_.tiles(version, segment, layer, range);
-  }
-  Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
-                                                   double radius_m) override {
-    return lines_near(lines_, position, radius_m);
-  }
-  Result<MapDescription> describe(const MapVersion& version) override {
-    return MapDescription{version,
-                          {{"wisurf", R"({"items": "frames", "focal_px": [400, 400]})"}},
-                          to_json(FeatureParameters())};
-  }
-  Result<SegmentDescription> segment(const MapVersion& /*version*/,
-                                     const std::string& segment) override {
-    return description(segment);
-  }
-
- private:
-  static SegmentDescription description(const std::string& segment) {
-    return {segment, kLengthM, {kStart, kEnd}, {}};
-  }
-
-  LayerOfTiles beside_{tiles_of_a_road(image_beside)};
-  MapVersion current_;
-  bool is_available_ = true;
-  std::vector<KnownLine> lines_;
-};
+std::shared_ptr<testing::MemorySource> one_road() {
+  auto map =
+      std::make_shared<testing::MemorySource>(MapVersion{"map", build_of_map('1')}, "wisurf",
+                                              R"({"items": "frames", "focal_px": [400, 400]})");
+  map->add(straight("road"), tiles_of_a_road(image_from));
+  return map;
+}
 
 class LocalizerAndReceiver : public ::testing::Test {
  protected:
@@ -121,6 +88,7 @@ class LocalizerAndReceiver : public ::testing::Test {
     time_s_ += kStepS;
     QueryFrame frame{time_s_, {}, {}};
     if (image) frame.image = [&image]() -> const ImageDescriptor& { return *image; };
+    testing::wait_for_tiles(localizer_, time_s_);
     const auto fix = localizer_.localize(frame);
     EXPECT_TRUE(fix.ok()) << fix.error().line();
     return *fix;
@@ -134,7 +102,7 @@ class LocalizerAndReceiver : public ::testing::Test {
     return fix_of(std::nullopt);
   }
 
-  std::shared_ptr<OneRoad> map_ = std::make_shared<OneRoad>();
+  std::shared_ptr<testing::MemorySource> map_ = one_road();
   Result<RouteLine> road_ = RouteLine::from_vertices({kStart, kEnd});
 
  private:
@@ -146,6 +114,9 @@ class LocalizerAndReceiver : public ::testing::Test {
     settings.method = *method_named("wisurf");
     settings.prefetch_m = 0;
     settings.scout.reach = {0, 10};
+    settings.provider.surroundings_margin_m = 0;
+    settings.provider.kept_m = 0;
+    settings.provider.backoff.first_s = 0.001;
     return settings;
   }
 
@@ -204,7 +175,7 @@ TEST_F(LocalizerAndReceiver, IsOffTheMapWhereNoSegmentIsNear) {
 }
 
 TEST_F(LocalizerAndReceiver, OfTwoRoadsBelievesTheOneThatLooksAlike) {
-  map_->add_road_beside();
+  map_->add(straight("beside"), tiles_of_a_road(image_beside));
   observe(50);
   EXPECT_EQ(fix_of(image_beside(50)).segment, "beside");
   Localizer again(map_, {600, 400, 400, 400}, settings());
@@ -253,7 +224,7 @@ TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItIsOffTheMap) {
 TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItStartsOnTheNext) {
   fix_at(396, 396);
   for (const double along_m : {398.0, 400.0, 402.0, 404.0, 406.0}) fix_at(along_m, along_m);
-  map_->add_road_beside();
+  map_->add(straight("beside"), tiles_of_a_road(image_beside));
   observe(200);
   const Fix next = fix_of(image_beside(200));
   EXPECT_EQ(next.status, FixStatus::initializing);
@@ -270,24 +241,27 @@ TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItIsNotAtOnceFarBack) {
   }
 }
 
+// Of the build that is gone it uses what it holds; the road of the next is another place until
+// that is claimed.
 TEST_F(LocalizerAndReceiver, ABuildThatIsGoneIsLookedUpAnew) {
-  fix_at(50, 50);
-  map_->build_anew('2');
+  track_to(50);
+  map_->build_anew(build_of_map('2'));
   Fix fix;
-  for (double along_m = 52; along_m < 200; along_m += kSpacingM) {
+  double along_m = 52;
+  for (; along_m < 200; along_m += kSpacingM) {
     fix = fix_at(along_m, along_m);
-    if (fix.version == build_of_map('2')) break;
-    EXPECT_EQ(fix.status, FixStatus::tracking);
+    EXPECT_NEAR(fix.along_m.value_or(along_m), along_m, 2 * kSpacingM);
+    if (fix.version.build == build_of_map('2') && fix.status == FixStatus::tracking) break;
   }
-  EXPECT_EQ(fix.version, build_of_map('2'));
-  EXPECT_EQ(fix.status, FixStatus::initializing);
+  EXPECT_LT(along_m, 200);
+  EXPECT_GT(along_m, 60);  // it did not fall from what it held
 }
 
 TEST_F(LocalizerAndReceiver, WhileSeveralPlacesAreWeighedAFailingSourceIsNotedToo) {
-  fix_at(50, 50);
+  fix_at(40, 40);
   map_->be_unavailable();
-  const Fix fix = fix_at(52, 52);
-  EXPECT_NEAR(fix.along_m.value_or(0), 52, kSpacingM);
+  const Fix fix = fix_at(42, 85);  // looked for beyond 100 m, too
+  EXPECT_NEAR(fix.along_m.value_or(0), 42, kSpacingM);
   ASSERT_TRUE(localizer_.noted_error().has_value());
   EXPECT_EQ(localizer_.noted_error()->code, ErrorCode::unavailable);
 }
@@ -296,14 +270,19 @@ TEST_F(LocalizerAndReceiver, ASourceThatFailsIsNotedAndDrivenOnWithout) {
   track_to(50);
   map_->be_unavailable();
   Fix fix;
-  for (double along_m = 52; along_m < 200 && fix.status != FixStatus::predicted;
-       along_m += kSpacingM) {
-    EXPECT_FALSE(localizer_.noted_error().has_value());
+  double along_m = 52;
+  for (; along_m < 200 && !localizer_.noted_error(); along_m += kSpacingM) {
     fix = fix_at(along_m, along_m);
+    EXPECT_EQ(fix.status, FixStatus::tracking);
   }
-  EXPECT_EQ(fix.status, FixStatus::predicted);
   ASSERT_TRUE(localizer_.noted_error().has_value());
   EXPECT_EQ(localizer_.noted_error()->code, ErrorCode::unavailable);
+  // What is held is used to its end.
+  for (; along_m < 140 && fix.status == FixStatus::tracking; along_m += kSpacingM) {
+    fix = fix_at(along_m, along_m);
+  }
+  EXPECT_GT(along_m, 96);
+  EXPECT_LT(along_m, 140);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "client/localize/second_look.h"
+#include "tests/client/fetch/held_segment.h"
 
 namespace milepost {
 namespace {
@@ -22,7 +23,8 @@ RouteLine northwards() {
 class Standing : public Follower {
  public:
   explicit Standing(double along_m) : along_m_(along_m) {}
-  double expected_along_m(double) const override { return along_m_; }
+  TrackedPosition position_at(double) const override { return position(); }
+  AlongRange needed(double) const override { return {along_m_, along_m_}; }
   Followed follow(SeenFrame&) override { return {}; }
   TrackedPosition position() const override { return {along_m_, 0.1}; }
 
@@ -58,8 +60,8 @@ class Places : public ::testing::Test {
     return all;
   }
 
-  std::shared_ptr<OpenSegment> segment_ = std::make_shared<OpenSegment>(OpenSegment{
-      {{nullptr, {}, "s", ""}, LayerItems::landmarks, northwards(), {}, 700, {}}, nullptr});
+  std::shared_ptr<OpenSegment> segment_ = std::make_shared<OpenSegment>(
+      OpenSegment{testing::layer_of({{}, "s"}, northwards(), {}, {}), nullptr});
 };
 
 TEST_F(Places, OfPlacesThatAreOneThePoseThatMostAgreesWithStays) {

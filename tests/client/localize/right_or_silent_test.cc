@@ -10,7 +10,6 @@ namespace milepost {
 namespace {
 
 using testing::LandmarkRoad;
-using testing::LandmarkRoadMap;
 using testing::RoadPose;
 
 constexpr double kFrameM = 1;     // between frames ...
@@ -25,6 +24,7 @@ class RightOrSilent : public ::testing::Test {
   Fix fix(const RoadPose& truth) { return fix_of(road().seen_from(truth, 0, random_)); }
 
   Fix fix_of(const FeatureSet& set) {
+    testing::wait_for_tiles(localizer_, time_s_);
     const auto fix = localizer_.localize(
         {time_s_, [&](const FeatureParameters&) -> const FeatureSet& { return set; }});
     time_s_ += kFrameM / kSpeedMps;
@@ -58,8 +58,8 @@ class RightOrSilent : public ::testing::Test {
            std::abs(*fix.lateral_m - truth.lateral_m) < 0.2;
   }
 
-  std::shared_ptr<LandmarkRoadMap> map_ = std::make_shared<LandmarkRoadMap>(road());
-  Localizer localizer_{map_, road().query_camera(), testing::settings_without_prefetcher()};
+  std::shared_ptr<testing::MemorySource> map_ = testing::map_of(road());
+  Localizer localizer_{map_, road().query_camera(), testing::settings_of_a_short_reach()};
   double time_s_ = 100;
   std::mt19937 random_{11};
 };

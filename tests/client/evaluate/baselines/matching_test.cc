@@ -5,7 +5,7 @@
 #include <random>
 
 #include "schema/tile/codec.h"
-#include "tests/client/localize/layer_of_tiles.h"
+#include "tests/client/fetch/held_segment.h"
 
 namespace milepost {
 namespace {
@@ -42,16 +42,17 @@ class Matching : public ::testing::Test {
       averaged.tracklets.push_back(observed.tracklets.back().tracklet);
     }
     tracks_ = observed.tracklets;
-    observed_ = window_of(encode_observations(observed), LayerItems::observations);
-    averaged_ = window_of(encode_tile(averaged), LayerItems::tracklets);
+    observed_ = window_of(*decode_tile_of(LayerItems::observations, encode_observations(observed)));
+    averaged_ = window_of(*decode_tile_of(LayerItems::tracklets, encode_tile(averaged)));
   }
 
-  static std::unique_ptr<TrackletWindow> window_of(Bytes frame, LayerItems items) {
-    auto source = std::make_shared<testing::LayerOfTiles>(
-        std::vector<testing::LayerOfTiles::Tile>{{{10, 20}, std::move(frame)}});
-    auto window = std::make_unique<TrackletWindow>(LayerSource{source, {}, "s", "l"}, items,
-                                                   WindowSettings{});
-    EXPECT_TRUE(window->cover(kRoad).ok());
+  static std::unique_ptr<TrackletWindow> window_of(DecodedTile tile) {
+    const SegmentKey key = {{}, "s"};
+    const auto line = *RouteLine::from_vertices({{49, 8.4, 0}, {49.001, 8.4, 0}});
+    const std::vector<testing::IndexedTile> tiles = {{{10, 20}, std::move(tile)}};
+    const HeldMap held = testing::held_map(testing::layer_of(key, line, {}, tiles), tiles);
+    auto window = std::make_unique<TrackletWindow>(key, WindowSettings{});
+    EXPECT_TRUE(window->cover(held, kRoad).complete);
     return window;
   }
 

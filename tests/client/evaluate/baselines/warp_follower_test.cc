@@ -5,8 +5,7 @@
 
 #include "client/evaluate/baselines/methods.h"
 #include "client/localize/follower.h"
-#include "schema/tile/codec.h"
-#include "tests/client/localize/layer_of_tiles.h"
+#include "tests/client/fetch/held_segment.h"
 
 namespace milepost {
 namespace {
@@ -22,27 +21,33 @@ ImageDescriptor image_from(double along_m) {
   return image;
 }
 
-SegmentSession straight_road() {
+struct Road {
+  std::shared_ptr<const SegmentLayer> layer;
+  HeldMap held;
+};
+
+Road straight_road(LayerItems items = LayerItems::frames) {
   FrameTile tile{"road", 0, {}};
   for (double along_m = 0; along_m <= kLengthM; along_m += kSpacingM) {
     tile.frames.push_back({along_m, {}, image_from(along_m)});
   }
-  auto source = std::make_shared<testing::LayerOfTiles>(
-      std::vector<testing::LayerOfTiles::Tile>{{{0, kLengthM}, encode_frames(tile)}});
   GeoPoint end = kStart;
   end.latitude_deg += kLengthM / 111229;  // metres in a degree of latitude there
-  return {{source, {}, "road", "wisurf"},
-          LayerItems::frames,
-          *RouteLine::from_vertices({kStart, end}),
-          {},
-          400,
-          std::nullopt};
+  LayerParameters parameters;
+  parameters.items = items;
+  parameters.map_focal_px = 400;
+  const std::vector<testing::IndexedTile> tiles = {{{0, kLengthM}, tile}};
+  Road road;
+  road.layer = testing::layer_of({{"map", "build"}, "road"},
+                                 *RouteLine::from_vertices({kStart, end}), parameters, tiles);
+  road.held = testing::held_map(road.layer, tiles);
+  return road;
 }
 
 class WarpFollowing : public ::testing::Test {
  protected:
   WarpFollowing() {
-    auto made = method_named("wisurf")->make_scout(session_, {600, 400, 400, 400}, {});
+    auto made = method_named("wisurf")->make_scout(*road_.layer, {600, 400, 400, 400}, {});
     scout_ = std::move(*made);
   }
 
@@ -51,17 +56,16 @@ class WarpFollowing : public ::testing::Test {
     image_ = image_from(along_m);
     time_s_ += 0.2;
     frame_ = {time_s_, {}, [this]() -> const ImageDescriptor& { return image_; }};
-    return seen_.emplace(frame_);
+    return seen_.emplace(frame_, road_.held);
   }
 
   void start_at(double along_m) {
-    auto seen = scout_->look(frame(along_m), AlongRange{along_m - 20, along_m + 20});
-    ASSERT_TRUE(seen.ok());
-    ASSERT_EQ(seen->size(), 1U);
-    follower_ = std::move(seen->front().follower);
+    Looked seen = scout_->look(frame(along_m), AlongRange{along_m - 20, along_m + 20});
+    ASSERT_EQ(seen.sightings.size(), 1U);
+    follower_ = std::move(seen.sightings.front().follower);
   }
 
-  SegmentSession session_ = straight_road();
+  Road road_ = straight_road();
   ImageDescriptor image_{};
   double time_s_ = 10;
   QueryFrame frame_;
@@ -92,18 +96,15 @@ TEST_F(WarpFollowing, StaysAtTheEndOfTheRoad) {
 }
 
 TEST_F(WarpFollowing, NothingIsFoundWhereTheMapHasNoFrames) {
-  const auto seen = scout_->look(frame(50), AlongRange{300, 340});
-  ASSERT_TRUE(seen.ok());
-  EXPECT_TRUE(seen->empty());
+  EXPECT_TRUE(scout_->look(frame(50), AlongRange{300, 340}).sightings.empty());
 }
 
 TEST(MakeScout, RefusesALayerOfOtherItems) {
-  SegmentSession session = straight_road();
-  session.items = LayerItems::tracklets;
-  const auto made = method_named("wisurf")->make_scout(session, {600, 400, 400, 400}, {});
+  const Road road = straight_road(LayerItems::tracklets);
+  const auto made = method_named("wisurf")->make_scout(*road.layer, {600, 400, 400, 400}, {});
   ASSERT_FALSE(made.ok());
   EXPECT_EQ(made.error().code, ErrorCode::corrupt);
-  EXPECT_NE(made.error().line().find("layer 'wisurf': the method cannot use its tracklets"),
+  EXPECT_NE(made.error().line().find("layer 'layer': the method cannot use its tracklets"),
             std::string::npos)
       << made.error().line();
 }

@@ -1,27 +1,25 @@
-#include "client/localize/segment_session.h"
+#include "client/fetch/segment_layer.h"
 
 #include <cmath>
+#include <utility>
 
 #include "schema/base/json.h"
 
 namespace milepost {
-namespace {
 
-struct LayerParameters {
-  LayerItems items = LayerItems::tracklets;
-  double focal_px = 0;  // geometric mean
-  std::optional<Codebook> codebook = std::nullopt;
-};
-
-Result<LayerParameters> parameters_of_layer(const MapDescription& map, const std::string& layer) {
-  const auto found = map.layers.find(layer);
-  if (found == map.layers.end()) {
-    return Error{ErrorCode::invalid_input, "map '" + map.version.map + "'",
+Result<std::shared_ptr<const LayerParameters>> read_layer_parameters(MapSource& source,
+                                                                     const MapVersion& version,
+                                                                     const std::string& layer) {
+  const Result<MapDescription> map = source.describe(version);
+  if (!map) return map.error();
+  const auto found = map->layers.find(layer);
+  if (found == map->layers.end()) {
+    return Error{ErrorCode::invalid_input, "map '" + version.map + "'",
                  "it has no layer '" + layer + "', which the method needs",
                  "build it with milepost-mapper build --lab, or use the method milepost"};
   }
   const auto corrupt = [&](const std::string& what) {
-    return Error{ErrorCode::corrupt, "map '" + map.version.map + "', layer '" + layer + "'", what,
+    return Error{ErrorCode::corrupt, "map '" + version.map + "', layer '" + layer + "'", what,
                  "build the map anew"};
   };
   const Result<nlohmann::json> parsed = read_json(found->second);
@@ -37,36 +35,32 @@ Result<LayerParameters> parameters_of_layer(const MapDescription& map, const std
   if (!two_numbers) return corrupt("focal_px is not two numbers");
   const double focal_px = std::sqrt(focal[0].get<double>() * focal[1].get<double>());
   if (!(focal_px > 0 && std::isfinite(focal_px))) return corrupt("focal_px is out of range");
-  LayerParameters parameters{*items, focal_px};
+  const Result<FeatureParameters> feature = feature_parameters_from_json(map->feature_json);
+  if (!feature) return feature.error();
+  LayerParameters parameters{*items, *feature, focal_px, std::nullopt};
   if (*items == LayerItems::landmarks) {
     const Result<Codebook> codebook =
         Codebook::from_json(json.value("codebook", nlohmann::json()).dump());
     if (!codebook) return corrupt("its codebook: " + codebook.error().what);
     parameters.codebook = *codebook;
   }
-  return parameters;
+  return std::make_shared<const LayerParameters>(std::move(parameters));
 }
 
-}  // namespace
-
-Result<SegmentSession> open_session(const LayerSource& layer) {
-  const Result<MapDescription> map = layer.source->describe(layer.version);
-  if (!map) return map.error();
-  const Result<LayerParameters> parameters = parameters_of_layer(*map, layer.layer);
-  if (!parameters) return parameters.error();
-  const Result<FeatureParameters> feature = feature_parameters_from_json(map->feature_json);
-  if (!feature) return feature.error();
-  const Result<SegmentDescription> description =
-      layer.source->segment(layer.version, layer.segment);
+Result<std::shared_ptr<const SegmentLayer>> read_segment_layer(
+    MapSource& source, const SegmentKey& key, const std::string& layer,
+    std::shared_ptr<const LayerParameters> parameters) {
+  const Result<SegmentDescription> description = source.segment(key.version, key.segment);
   if (!description) return description.error();
   Result<RouteLine> line = RouteLine::from_vertices(description->vertices);
   if (!line) {
-    return Error{ErrorCode::corrupt,
-                 "map '" + layer.version.map + "', segment '" + layer.segment + "'",
+    return Error{ErrorCode::corrupt, "map '" + key.version.map + "', segment '" + key.segment + "'",
                  line.error().what, "build the map anew"};
   }
-  return SegmentSession{layer,    parameters->items,    std::move(*line),
-                        *feature, parameters->focal_px, parameters->codebook};
+  Result<std::vector<TileEntry>> index = source.tile_index(key.version, key.segment, layer);
+  if (!index) return index.error();
+  return std::make_shared<const SegmentLayer>(
+      SegmentLayer{key, layer, std::move(parameters), std::move(*line), std::move(*index)});
 }
 
 }  // namespace milepost

@@ -1,0 +1,297 @@
+#include "client/fetch/provider_state.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "client/fetch/documents.h"
+#include "schema/geo/geodesy.h"
+
+namespace milepost {
+namespace {
+
+double seconds_between(SteadyTime begin, SteadyTime end) {
+  return std::chrono::duration<double>(end - begin).count();
+}
+
+bool covers(const Surroundings& known, const Surroundings& asked) {
+  return known.radius_m >= 0 &&
+         geodesic_distance_m(known.position, asked.position) + asked.radius_m <= known.radius_m;
+}
+
+}  // namespace
+
+ProviderState::ProviderState(const ProviderSettings& settings)
+    : settings_(settings), random_(std::random_device{}()) {}
+
+void ProviderState::want(Wants wants) {
+  wants_ = std::move(wants);
+  std::ranges::stable_sort(wants_.tiles, {}, &Want::priority);
+  let_go();
+  await_what_is_wanted();
+}
+
+// Opens an entry for each wanted segment and tile that is neither held nor awaited.
+void ProviderState::await_what_is_wanted() {
+  for (const NearbySegment& near : around_) segments_[{near.version, near.segment}];
+  for (const Want& want : wants_.tiles) {
+    Segment& segment = segments_[want.segment];
+    if (!segment.held.layer) continue;
+    for (const TileEntry& entry : entries_meeting(segment.held.layer->index, want.range)) {
+      if (!segment.held.tiles.contains(entry.index)) segment.awaited[entry.index];
+    }
+  }
+}
+
+void ProviderState::let_go() {
+  bool changed = false;
+  for (auto& [key, segment] : segments_) {
+    if (!segment.held.layer) continue;
+    std::vector<AlongRange> kept;
+    std::vector<AlongRange> wanted;
+    for (const Want& want : wants_.tiles) {
+      if (want.segment != key) continue;
+      wanted.push_back(want.range);
+      kept.push_back(want.range.widened(settings_.kept_m));
+    }
+    const auto meets = [&](const std::vector<AlongRange>& ranges, std::uint32_t index) {
+      const auto entry =
+          std::ranges::lower_bound(segment.held.layer->index, index, {}, &TileEntry::index);
+      return std::ranges::any_of(
+          ranges, [&](const AlongRange& range) { return entry->along.meets(range); });
+    };
+    const std::size_t before = segment.held.tiles.size() + segment.held.missing.size();
+    std::erase_if(segment.held.tiles, [&](const auto& tile) { return !meets(kept, tile.first); });
+    std::erase_if(segment.awaited, [&](const auto& tile) { return !meets(wanted, tile.first); });
+    std::erase_if(segment.held.missing,
+                  [&](const auto& tile) { return !segment.awaited.contains(tile.first); });
+    changed |= before != segment.held.tiles.size() + segment.held.missing.size();
+  }
+  const auto is_of_use = [&](const SegmentKey& key) {
+    const bool wanted =
+        std::ranges::any_of(wants_.tiles, [&](const Want& want) { return want.segment == key; });
+    return wanted || std::ranges::any_of(around_, [&](const NearbySegment& near) {
+             return near.version == key.version && near.segment == key.segment;
+           });
+  };
+  changed |=
+      std::erase_if(segments_, [&](const auto& segment) { return !is_of_use(segment.first); }) > 0;
+  if (changed) publish();
+}
+
+std::optional<StoredTile> ProviderState::next_stored() const {
+  for (const Want& want : wants_.tiles) {
+    const Segment& segment = segments_.at(want.segment);
+    if (!segment.held.layer) continue;
+    for (const TileEntry& entry : entries_meeting(segment.held.layer->index, want.range)) {
+      const auto awaited = segment.awaited.find(entry.index);
+      if (awaited != segment.awaited.end() && awaited->second.may_be_stored) {
+        return StoredTile{segment.held.layer, entry};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool ProviderState::knows_surroundings() const {
+  return !wants_.around || covers(known_around_, *wants_.around);
+}
+
+std::optional<FetchTask> ProviderState::next_fetch(SteadyTime now) const {
+  if (!knows_surroundings() && around_backoff_.is_due(now)) {
+    Surroundings asked = *wants_.around;
+    asked.radius_m += settings_.surroundings_margin_m;
+    return AskAround{asked};
+  }
+  for (const auto& [key, segment] : segments_) {
+    if (!segment.held.layer && segment.documents.is_due(now)) return ReadDocuments{key};
+  }
+  if (!network_.is_due(now)) return std::nullopt;
+  for (const Want& want : wants_.tiles) {
+    const Segment& segment = segments_.at(want.segment);
+    if (!segment.held.layer) continue;
+    std::vector<TileEntry> run = first_run(segment, want.range, now);
+    if (!run.empty()) return FetchTiles{segment.held.layer, std::move(run)};
+  }
+  return std::nullopt;
+}
+
+// Tiles to fetch that stand side by side.
+std::vector<TileEntry> ProviderState::first_run(const Segment& segment, const AlongRange& range,
+                                                SteadyTime now) const {
+  std::vector<TileEntry> run;
+  for (const TileEntry& entry : entries_meeting(segment.held.layer->index, range)) {
+    const auto awaited = segment.awaited.find(entry.index);
+    const bool is_due = awaited != segment.awaited.end() && !awaited->second.may_be_stored &&
+                        awaited->second.backoff.is_due(now);
+    if (is_due) run.push_back(entry);
+    if ((!is_due && !run.empty()) || run.size() == segment.longest_run) break;
+  }
+  return run;
+}
+
+std::optional<SteadyTime> ProviderState::next_due(SteadyTime now) const {
+  std::optional<SteadyTime> first;
+  const auto consider = [&](const Backoff& backoff) {
+    if (backoff.failures() == 0 || backoff.due() <= now) return;
+    if (!first || backoff.due() < *first) first = backoff.due();
+  };
+  if (!knows_surroundings()) consider(around_backoff_);
+  consider(network_);
+  for (const auto& [key, segment] : segments_) {
+    if (!segment.held.layer) consider(segment.documents);
+    for (const auto& [index, awaited] : segment.awaited) consider(awaited.backoff);
+  }
+  return first;
+}
+
+void ProviderState::take(const AskAround& task, std::vector<NearbySegment> near) {
+  around_ = std::move(near);
+  if (around_.size() > settings_.max_segments) around_.resize(settings_.max_segments);
+  known_around_ = task.asked;
+  around_failure_.reset();
+  around_backoff_.succeeded();
+  let_go();
+  await_what_is_wanted();
+  publish();
+}
+
+void ProviderState::take(std::shared_ptr<const SegmentLayer> layer) {
+  const auto found = segments_.find(layer->key);
+  if (found == segments_.end()) return;
+  found->second.held.layer = std::move(layer);
+  found->second.held.failure.reset();
+  found->second.documents.succeeded();
+  await_what_is_wanted();
+  publish();
+}
+
+void ProviderState::take(const SegmentKey& key, std::uint32_t index,
+                         std::shared_ptr<const DecodedTile> tile) {
+  const auto found = segments_.find(key);
+  if (found == segments_.end() || found->second.awaited.erase(index) == 0) return;
+  found->second.held.tiles[index] = std::move(tile);
+  found->second.held.missing.erase(index);
+  publish();
+}
+
+void ProviderState::is_not_stored(const SegmentKey& key, std::uint32_t index) {
+  const auto found = segments_.find(key);
+  if (found == segments_.end()) return;
+  const auto awaited = found->second.awaited.find(index);
+  if (awaited != found->second.awaited.end()) awaited->second.may_be_stored = false;
+}
+
+void ProviderState::is_unusable(const SegmentKey& key, std::uint32_t index, Error error,
+                                SteadyTime now) {
+  const auto found = segments_.find(key);
+  if (found == segments_.end()) return;
+  const auto awaited = found->second.awaited.find(index);
+  if (awaited == found->second.awaited.end()) return;
+  awaited->second.may_be_stored = false;
+  awaited->second.backoff.failed(now, 0, settings_.backoff, random_);
+  found->second.held.missing.insert_or_assign(index, std::move(error));
+  publish();
+}
+
+void ProviderState::failed(const FetchTask& task, const FetchFailure& failure) {
+  if (std::holds_alternative<AskAround>(task)) {
+    around_failure_ = failure.error;
+    around_backoff_.failed(failure.ended, failure.retry_after_s, settings_.backoff, random_);
+    return publish();
+  }
+  const auto* documents = std::get_if<ReadDocuments>(&task);
+  const auto* tiles = std::get_if<FetchTiles>(&task);
+  const SegmentKey key = documents ? documents->key : tiles->of->key;
+  if (failure.error.code == ErrorCode::gone) return give_up(key.version, failure.error);
+  const auto found = segments_.find(key);
+  if (found == segments_.end()) return;
+  Segment& segment = found->second;
+  if (documents) {
+    segment.held.failure = failure.error;
+    segment.documents.failed(failure.ended, failure.retry_after_s, settings_.backoff, random_);
+    return publish();
+  }
+  for (const TileEntry& entry : tiles->tiles) {
+    const auto awaited = segment.awaited.find(entry.index);
+    if (awaited == segment.awaited.end()) continue;
+    segment.held.missing.insert_or_assign(entry.index, failure.error);
+    if (tiles->tiles.size() == 1) {
+      awaited->second.backoff.failed(failure.ended, failure.retry_after_s, settings_.backoff,
+                                     random_);
+    }
+  }
+  segment.longest_run = std::max<std::size_t>(1, tiles->tiles.size() / 2);
+  const bool is_slow = seconds_between(failure.began, failure.ended) > settings_.slow_s;
+  if (tiles->tiles.size() > 1 || is_slow) network_failed(failure);
+  publish();
+}
+
+void ProviderState::network_failed(const FetchFailure& failure) {
+  if (!failing_since_) failing_since_ = failure.began;
+  network_.failed(failure.ended, failure.retry_after_s, settings_.backoff, random_);
+}
+
+void ProviderState::succeeded(const FetchTask& task) {
+  const auto* tiles = std::get_if<FetchTiles>(&task);
+  if (!tiles) return;  // documents may have come from the cache
+  failing_since_.reset();
+  network_.succeeded();
+  const auto found = segments_.find(tiles->of->key);
+  if (found != segments_.end()) {
+    found->second.longest_run = std::min<std::size_t>(1000, 2 * tiles->tiles.size());
+  }
+}
+
+// The build is no more: its segments are not what they were, and the surroundings are asked anew.
+void ProviderState::give_up(const MapVersion& version, const Error& error) {
+  for (auto& [key, segment] : segments_) {
+    if (key.version != version) continue;
+    segment = Segment();
+    segment.held.failure = error;
+    segment.documents.failed(SteadyTime::max() - std::chrono::hours(1), 0, settings_.backoff,
+                             random_);
+  }
+  std::erase_if(around_, [&](const NearbySegment& near) { return near.version == version; });
+  known_around_.radius_m = -1;
+  publish();
+}
+
+bool ProviderState::is_away(SteadyTime now) const {
+  return failing_since_ && seconds_between(*failing_since_, now) > settings_.away_s;
+}
+
+bool ProviderState::is_settled(const Want& want, SteadyTime now) const {
+  const Segment& segment = segments_.at(want.segment);
+  if (!segment.held.layer) return segment.held.failure.has_value();
+  return std::ranges::all_of(entries_meeting(segment.held.layer->index, want.range),
+                             [&](const TileEntry& entry) {
+                               const auto awaited = segment.awaited.find(entry.index);
+                               if (awaited == segment.awaited.end()) return true;
+                               if (awaited->second.may_be_stored) return false;
+                               return awaited->second.backoff.failures() > 0 || is_away(now);
+                             });
+}
+
+bool ProviderState::is_settled(SteadyTime now) const {
+  if (!knows_surroundings() && !around_failure_) return false;
+  const auto is_open = [&](const NearbySegment& near) {
+    const Segment& segment = segments_.at({near.version, near.segment});
+    return segment.held.layer || segment.held.failure;
+  };
+  return std::ranges::all_of(around_, is_open) &&
+         std::ranges::all_of(wants_.tiles, [&](const Want& want) { return is_settled(want, now); });
+}
+
+void ProviderState::publish() {
+  auto held = std::make_shared<HeldMap>();
+  // Segments that did not change since are shared with what was held before.
+  for (const auto& [key, segment] : segments_) {
+    held->segments[key] = std::make_shared<const HeldSegment>(segment.held);
+  }
+  held->known_around = known_around_;
+  held->around = around_;
+  held->around_failure = around_failure_;
+  held_ = std::move(held);
+}
+
+}  // namespace milepost

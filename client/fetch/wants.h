@@ -1,0 +1,38 @@
+// What a vehicle wants to hold of the map.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/fetch/map_source.h"
+
+namespace milepost {
+
+struct SegmentKey {
+  MapVersion version;
+  std::string segment;
+
+  friend auto operator<=>(const SegmentKey&, const SegmentKey&) = default;
+};
+
+// The tiles of one segment that meet a range.
+struct Want {
+  SegmentKey segment;
+  AlongRange range;
+  int priority = 0;  // the lowest first
+};
+
+// The lines that pass near a position.
+struct Surroundings {
+  GeoPoint position;
+  double radius_m = 0;
+};
+
+// All at once: what is no longer in it is no longer wanted.
+struct Wants {
+  std::optional<Surroundings> around;
+  std::vector<Want> tiles;
+};
+
+}  // namespace milepost

@@ -1,0 +1,93 @@
+// A map source whose tiles lie in memory, which can be made to fail as servers do.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "client/fetch/map_source.h"
+
+namespace milepost::testing {
+
+// One map with one layer. Every tile has to be fetched, unless it is stored. All members may be
+// called from any thread.
+class MemorySource : public MapSource, public std::enable_shared_from_this<MemorySource> {
+ public:
+  struct Tile {
+    AlongRange along;
+    Bytes frame;
+  };
+
+  MemorySource(MapVersion version, std::string layer, std::string layer_parameters);
+
+  void add(const SegmentDescription& segment, std::vector<Tile> tiles);
+  // The map as it is is gone.
+  void build_anew(const std::string& build);
+  // Tiles cannot be fetched, or can be again.
+  void be_unavailable(bool unavailable = true) { is_unavailable_ = unavailable; }
+  // A request for this tile fails.
+  void refuse_tile(std::uint32_t index);
+  // The tiles are in the cache.
+  void store_tiles() { is_stored_ = true; }
+  // Calls that fetch wait until they are let go, or stopped.
+  void block(bool blocked = true) { is_blocked_ = blocked; }
+
+  // The threads that ever called, and how many calls there were for tiles and for documents.
+  std::set<std::thread::id> callers() const;
+  int tile_requests() const { return tile_requests_; }
+  int document_requests() const { return document_requests_; }
+  int near_requests() const { return near_requests_; }
+
+  Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
+                                                   double radius_m) override;
+  Result<std::vector<MapVersion>> maps() override;
+  Result<MapDescription> describe(const MapVersion& version) override;
+  Result<SegmentDescription> segment(const MapVersion& version,
+                                     const std::string& segment) override;
+  Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
+                                       const std::string& layer, const AlongRange& range) override;
+  Result<std::vector<CellFrame>> cells(const MapVersion& version, const std::string& layer,
+                                       const Bounds& box) override;
+  Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
+                                    const std::string& layer) override;
+  SourceCounters counters() const override { return {}; }
+  Result<std::vector<TileEntry>> tile_index(const MapVersion& version, const std::string& segment,
+                                            const std::string& layer) override;
+  Result<std::optional<Bytes>> stored_tile(const MapVersion& version, const std::string& segment,
+                                           const std::string& layer,
+                                           const TileEntry& entry) override;
+  Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
+                      const std::string& layer, const std::vector<TileEntry>& tiles,
+                      const TileSink& take) override;
+  std::shared_ptr<MapSource> until(Stopped stopped) override;
+
+ private:
+  struct Road {
+    SegmentDescription description;
+    std::vector<Tile> tiles;
+  };
+
+  void note_caller();
+  void wait_while_blocked();
+
+  const std::string layer_;
+  const std::string layer_parameters_;
+  mutable std::mutex mutex_;  // guards all below but what is atomic
+  MapVersion version_;
+  std::map<std::string, Road> roads_;
+  std::set<std::uint32_t> refused_;
+  std::set<std::thread::id> callers_;
+  std::vector<Stopped> stopped_;
+  std::atomic<bool> is_unavailable_ = false;
+  std::atomic<bool> is_stored_ = false;
+  std::atomic<bool> is_blocked_ = false;
+  std::atomic<int> tile_requests_ = 0;
+  std::atomic<int> document_requests_ = 0;
+  std::atomic<int> near_requests_ = 0;
+};
+
+}  // namespace milepost::testing
