@@ -34,14 +34,12 @@ function(milepost_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(milepost_${name} STATIC ${ARG_SOURCES})
   add_library(milepost::${name} ALIAS milepost_${name})
-  set_target_properties(milepost_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(milepost_${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
-    $<INSTALL_INTERFACE:include/milepost>)
+    ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
   target_compile_features(milepost_${name} PUBLIC cxx_std_20)
   target_link_libraries(milepost_${name}
     PUBLIC ${ARG_PUBLIC}
-    PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:milepost_compile_options>)
+    PRIVATE ${ARG_PRIVATE} milepost_compile_options)
 endfunction()
 
 # milepost_program(NAME SOURCES ... LINK ...): an installed command.

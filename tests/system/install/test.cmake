@@ -1,5 +1,7 @@
-# Installs the build in BUILD into a prefix of its own under WORK, then builds and runs a program that
-# knows nothing but this prefix.
+# Installs the build in BUILD into a prefix of its own under WORK, then builds and runs programs that
+# know nothing but this prefix: with CMake (shared, static) and with pkg-config (shared, static), and
+# the example. Looks at what is installed: public headers only, each of which compiles alone as C++17,
+# and a shared library that shows nothing but the interface.
 file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)
 
@@ -8,7 +10,70 @@ macro(run)
 endmacro()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${WORK}/consumer -G Ninja
+
+# Headers.
+file(GLOB_RECURSE installed RELATIVE ${prefix}/include ${prefix}/include/*)
+file(GLOB public RELATIVE ${SOURCE}/client/include ${SOURCE}/client/include/milepost/*.h)
+list(SORT installed)
+list(SORT public)
+if(NOT installed STREQUAL public OR installed STREQUAL "")
+  message(FATAL_ERROR "installed are the headers\n${installed}\nand public are\n${public}")
+endif()
+foreach(header IN LISTS installed)
+  file(WRITE ${WORK}/alone.cc "#include <${header}>\n")
+  run(${CXX} -std=c++17 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I${prefix}/include ${WORK}/alone.cc)
+  file(STRINGS ${prefix}/include/${header} foreign REGEX "#include <(opencv2|Eigen|nlohmann|sqlite3)")
+  if(foreign)
+    message(FATAL_ERROR "${header} includes ${foreign}")
+  endif()
+endforeach()
+
+# What the shared library shows.
+file(GLOB_RECURSE shared ${prefix}/*/libmilepost.so)
+execute_process(COMMAND nm -D --defined-only -C ${shared} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX REPLACE "\n$" "" symbols "${symbols}")
+string(REPLACE ";" "," symbols "${symbols}")
+string(REPLACE "\n" ";" symbols "${symbols}")
+list(LENGTH symbols count)
+foreach(symbol IN LISTS symbols)
+  if(NOT symbol MATCHES " A MILEPOST_0$" AND NOT symbol MATCHES " T milepost::vehicle::(name_of|Localizer::|Finder::)"
+     OR symbol MATCHES "::Impl::")
+    message(FATAL_ERROR "libmilepost.so shows ${symbol}")
+  endif()
+endforeach()
+if(count LESS 10)
+  message(FATAL_ERROR "libmilepost.so shows ${count} symbols only")
+endif()
+
+# CMake package.
+set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
+run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/consumer -G Ninja
   -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${WORK}/consumer)
 run(${WORK}/consumer/consumer ${WORK})
+run(${WORK}/consumer/consumer_static ${WORK})
+
+# pkg-config.
+file(GLOB_RECURSE pc ${prefix}/*/milepost.pc)
+cmake_path(GET pc PARENT_PATH pkgconfig)
+cmake_path(GET shared PARENT_PATH libraries)
+function(flags_of result)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pkgconfig} pkg-config ${ARGN} milepost
+    OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  set(${result} ${flags} PARENT_SCOPE)
+endfunction()
+flags_of(dynamic --cflags --libs)
+run(${CXX} -std=c++17 ${consumer}/main.cc -o ${WORK}/by_pkg_config ${dynamic} -Wl,-rpath,${libraries})
+run(${WORK}/by_pkg_config ${WORK})
+flags_of(static --cflags --libs --static)
+list(TRANSFORM static REPLACE "^-lmilepost$" "-l:libmilepost.a")
+run(${CXX} -std=c++17 ${consumer}/main.cc -o ${WORK}/by_pkg_config_static ${static})
+run(${WORK}/by_pkg_config_static ${WORK})
+
+# The example, on a map of the street.
+run(${CMAKE_COMMAND} -S ${SOURCE}/client/examples -B ${WORK}/example -G Ninja
+  -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH=${prefix})
+run(${CMAKE_COMMAND} --build ${WORK}/example)
+run(${prefix}/bin/milepost-mapper build --drive ${STREET}/street-map --map ${WORK}/street.map)
+run(${WORK}/example/localize_drive ${STREET}/street-query ${WORK}/street.map)

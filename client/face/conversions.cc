@@ -1,0 +1,157 @@
+#include "client/face/conversions.h"
+
+#include <cmath>
+#include <utility>
+
+#include "client/fetch/file_source.h"
+#include "client/fetch/http_source.h"
+
+namespace milepost::vehicle {
+namespace {
+
+ErrorCode code_of(milepost::ErrorCode code) {
+  switch (code) {
+    case milepost::ErrorCode::invalid_input:
+      return ErrorCode::invalid_input;
+    case milepost::ErrorCode::not_found:
+      return ErrorCode::not_found;
+    case milepost::ErrorCode::gone:
+      return ErrorCode::gone;
+    case milepost::ErrorCode::corrupt:
+      return ErrorCode::corrupt;
+    case milepost::ErrorCode::io:
+      return ErrorCode::io;
+    case milepost::ErrorCode::unavailable:
+      return ErrorCode::unavailable;
+    case milepost::ErrorCode::cancelled:
+      break;
+  }
+  return ErrorCode::cancelled;
+}
+
+Error wrong(const std::string& what, const std::string& mend) {
+  return {ErrorCode::invalid_input, "camera", what, mend};
+}
+
+bool is_above_zero(double value) { return std::isfinite(value) && value > 0; }
+
+Result<std::shared_ptr<MapSource>> as_face(milepost::Result<std::shared_ptr<MapSource>> source) {
+  if (!source) return error_of(source.error());
+  return std::move(*source);
+}
+
+// Six degrees of freedom as a vector: metres and radians, as the tangent frame has them.
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+CameraPose pose_of(const Vector6& v) { return {v.head<3>(), v[3], v[4], v[5]}; }
+
+// The vehicle as if it were a camera that looks forward: its rotation is of the same kind.
+Vector6 vehicle_from_camera(const Vector6& camera, const Mounting& mounting) {
+  const CameraPose mounted = {Eigen::Vector3d::Zero(), mounting.yaw_deg * kRadPerDeg,
+                              mounting.pitch_deg * kRadPerDeg, mounting.roll_deg * kRadPerDeg};
+  const Eigen::Matrix3d camera_from_vehicle =
+      camera_from_enu(mounted) * level_camera_from_enu(0.0).transpose();
+  const Eigen::Matrix3d vehicle_from_enu =
+      camera_from_vehicle.transpose() * camera_from_enu(pose_of(camera));
+  const Eigen::Vector3d forward = vehicle_from_enu.row(2);
+  CameraPose vehicle;
+  vehicle.heading_rad = std::atan2(forward.x(), forward.y());
+  vehicle.pitch_rad = std::asin(std::clamp(forward.z(), -1.0, 1.0));
+  const Eigen::Matrix3d unrolled = camera_from_enu(vehicle);
+  const Eigen::Vector3d right = vehicle_from_enu.row(0);
+  vehicle.roll_rad = std::atan2(unrolled.row(1).dot(right), unrolled.row(0).dot(right));
+  const Eigen::Vector3d lever_m(mounting.right_m, -mounting.up_m, mounting.forward_m);
+  vehicle.enu_m = camera.head<3>() - vehicle_from_enu.transpose() * lever_m;
+  Vector6 v;
+  v << vehicle.enu_m, vehicle.heading_rad, vehicle.pitch_rad, vehicle.roll_rad;
+  return v;
+}
+
+}  // namespace
+
+Error error_of(const milepost::Error& error) {
+  return {code_of(error.code), error.where, error.what, error.mend};
+}
+
+Status check_camera(const Camera& camera) {
+  if (camera.width_px < 1 || camera.height_px < 1) {
+    return wrong("width_px and height_px are not both above 0", "give the size of its images");
+  }
+  if (!is_above_zero(camera.focal_x_px) || !is_above_zero(camera.focal_y_px)) {
+    return wrong("focal_x_px and focal_y_px are not both above 0", "calibrate the camera");
+  }
+  if (!std::isfinite(camera.principal_x_px) || !std::isfinite(camera.principal_y_px)) {
+    return wrong("the principal point is not finite", "calibrate the camera");
+  }
+  const Mounting& m = camera.mounting;
+  for (const double value : {m.forward_m, m.right_m, m.up_m, m.yaw_deg, m.pitch_deg, m.roll_deg}) {
+    if (!std::isfinite(value)) return wrong("the mounting is not finite", "measure it");
+  }
+  for (const double coefficient : camera.distortion) {
+    if (coefficient == 0) continue;
+    return Error{ErrorCode::unsupported, "camera", "lenses with distortion are not supported yet",
+                 "rectify the images, and give the pinhole camera that they are then of"};
+  }
+  if (camera.lens == LensModel::kannala_brandt) {
+    return Error{ErrorCode::unsupported, "camera", "fisheye lenses are not supported yet",
+                 "rectify the images, and give the pinhole camera that they are then of"};
+  }
+  return {};
+}
+
+QueryCamera query_camera_of(const Camera& camera) {
+  return {camera.width_px,   camera.height_px,      camera.focal_x_px,
+          camera.focal_y_px, camera.principal_x_px, camera.principal_y_px};
+}
+
+Pinhole pinhole_of(const Camera& camera) {
+  return {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px, camera.principal_y_px};
+}
+
+Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
+  if (const auto* file = std::get_if<FileSource>(&source)) {
+    return as_face(open_file_source(file->map_file));
+  }
+  const auto& server = std::get<ServerSource>(source);
+  HttpSourceSettings settings;
+  settings.server_url = server.url;
+  settings.cache_directory = server.cache_directory;
+  settings.cache_limit_bytes = server.cache_limit_bytes;
+  settings.connect_timeout_s = server.connect_timeout_s;
+  settings.stall_timeout_s = server.stall_timeout_s;
+  settings.least_bytes_per_s = server.least_bytes_per_s;
+  return as_face(open_http_source(settings));
+}
+
+Pose vehicle_pose_of(const CameraPlacement& camera, const Mounting& mounting) {
+  Vector6 at;
+  at << 0, 0, 0, camera.heading_deg * kRadPerDeg, camera.pitch_deg * kRadPerDeg,
+      camera.roll_deg * kRadPerDeg;
+  const Vector6 vehicle = vehicle_from_camera(at, mounting);
+  Matrix6 derivative;
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < 6; ++i) {
+    const Vector6 step = kStep * Vector6::Unit(i);
+    derivative.col(i) =
+        (vehicle_from_camera(at + step, mounting) - vehicle_from_camera(at - step, mounting)) /
+        (2 * kStep);
+  }
+  // Of metres and degrees, as the covariances are.
+  derivative.topRightCorner<3, 3>() *= kRadPerDeg;
+  derivative.bottomLeftCorner<3, 3>() /= kRadPerDeg;
+  const LocalFrame frame(camera.position);
+  const GeoPoint position = frame.geo_from_enu({vehicle[0], vehicle[1], vehicle[2]});
+  Pose pose;
+  pose.latitude_deg = position.latitude_deg;
+  pose.longitude_deg = position.longitude_deg;
+  pose.altitude_m = position.altitude_m;
+  pose.heading_deg = wrapped_360(vehicle[3] / kRadPerDeg);
+  pose.pitch_deg = vehicle[4] / kRadPerDeg;
+  pose.roll_deg = vehicle[5] / kRadPerDeg;
+  const Eigen::Map<const Matrix6> of_camera(camera.covariance.data());
+  Eigen::Map<Matrix6>(pose.covariance.data()) = derivative * of_camera * derivative.transpose();
+  return pose;
+}
+
+}  // namespace milepost::vehicle

@@ -1,0 +1,32 @@
+// Between the public face's values and the library's own.
+#pragma once
+
+#include <milepost/camera.h>
+#include <milepost/pose.h>
+#include <milepost/result.h>
+#include <milepost/source.h>
+
+#include <memory>
+
+#include "client/fetch/map_source.h"
+#include "client/localize/query.h"
+#include "client/localize/tracked_position.h"
+#include "schema/base/result.h"
+#include "schema/geo/camera_pose.h"
+
+namespace milepost::vehicle {
+
+Error error_of(const milepost::Error& error);
+
+// Errors: invalid_input (a value out of its range), unsupported (a lens with distortion).
+Status check_camera(const Camera& camera);
+QueryCamera query_camera_of(const Camera& camera);
+Pinhole pinhole_of(const Camera& camera);
+
+// Errors: those of Localizer::open.
+Result<std::shared_ptr<MapSource>> open_source(const Source& source);
+
+// The vehicle's reference point, from where its camera is.
+Pose vehicle_pose_of(const CameraPlacement& camera, const Mounting& mounting);
+
+}  // namespace milepost::vehicle

@@ -1,0 +1,194 @@
+#include "client/localize/localizer.h"
+
+#include <milepost/localizer.h>
+
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "client/face/conversions.h"
+#include "client/face/grey_image.h"
+#include "client/face/map_ahead.h"
+#include "schema/feature/extractor.h"
+
+namespace milepost::vehicle {
+namespace {
+
+FixStatus status_of(milepost::FixStatus status) {
+  switch (status) {
+    case milepost::FixStatus::tracking:
+      return FixStatus::tracking;
+    case milepost::FixStatus::predicted:
+      return FixStatus::predicted;
+    case milepost::FixStatus::lost:
+      return FixStatus::lost;
+    case milepost::FixStatus::off_map:
+      return FixStatus::off_map;
+    case milepost::FixStatus::initializing:
+      break;
+  }
+  return FixStatus::initializing;
+}
+
+Error wrong(const char* where, const char* what, const char* mend) {
+  return {ErrorCode::invalid_input, where, what, mend};
+}
+
+}  // namespace
+
+const char* name_of(FixStatus status) {
+  switch (status) {
+    case FixStatus::initializing:
+      return "initializing";
+    case FixStatus::tracking:
+      return "tracking";
+    case FixStatus::predicted:
+      return "predicted";
+    case FixStatus::lost:
+      return "lost";
+    case FixStatus::off_map:
+      return "off-map";
+  }
+  return "";
+}
+
+struct Localizer::Impl {
+  Impl(std::shared_ptr<MapSource> source, Camera given, const milepost::LocalizerSettings& settings)
+      : camera(std::move(given)), localizer(std::move(source), query_camera_of(camera), settings) {}
+
+  const FeatureSet& features_of(const cv::Mat& grey, const FeatureParameters& wanted) {
+    if (!extractor || !(wanted == parameters)) {
+      extractor = std::make_unique<FeatureExtractor>(wanted);
+      parameters = wanted;
+    }
+    features = extractor->extract(grey);
+    return features;
+  }
+
+  Fix face_of(const milepost::Fix& internal) const;
+
+  Camera camera;
+  milepost::Localizer localizer;
+  std::unique_ptr<FeatureExtractor> extractor;
+  FeatureParameters parameters;
+  FeatureSet features;
+  std::optional<double> latest_image_s;
+  std::optional<double> latest_receiver_s;
+  std::optional<double> latest_odometry_s;
+
+  mutable std::mutex mutex;  // guards all below
+  std::optional<OnSegment> latest_place;
+};
+
+Fix Localizer::Impl::face_of(const milepost::Fix& internal) const {
+  Fix fix;
+  fix.timestamp_s = internal.timestamp_s;
+  fix.status = status_of(internal.status);
+  fix.map = internal.version.map;
+  fix.build = internal.version.build;
+  fix.segment = internal.segment;
+  fix.along_m = internal.along_m;
+  fix.sigma_m = internal.sigma_m;
+  fix.lateral_m = internal.lateral_m;
+  fix.lateral_sigma_m = internal.lateral_sigma_m;
+  if (internal.camera) fix.pose = vehicle_pose_of(*internal.camera, camera.mounting);
+  fix.matches = internal.matches;
+  return fix;
+}
+
+Result<Localizer> Localizer::open(const Source& source, const Camera& camera,
+                                  const LocalizerSettings& settings) {
+  const Status sound = check_camera(camera);
+  if (!sound) return sound.error();
+  if (!(settings.ahead_m >= 0 && settings.ahead_m <= 5000)) {
+    return wrong("settings", "ahead_m is not from 0 to 5000", "give metres of map ahead");
+  }
+  Result<std::shared_ptr<MapSource>> opened = open_source(source);
+  if (!opened) return opened.error();
+  milepost::LocalizerSettings internal;
+  internal.prefetch_m = settings.ahead_m;
+  return Localizer(std::make_unique<Impl>(std::move(*opened), camera, internal));
+}
+
+Localizer::Localizer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Localizer::~Localizer() = default;
+Localizer::Localizer(Localizer&&) noexcept = default;
+Localizer& Localizer::operator=(Localizer&&) noexcept = default;
+
+Status Localizer::observe(const ReceiverReading& reading) {
+  const GeoPoint position = {reading.latitude_deg, reading.longitude_deg, reading.altitude_m};
+  const bool is_sound = std::isfinite(reading.timestamp_s) && is_valid(position) &&
+                        std::isfinite(reading.altitude_m) && std::isfinite(reading.sigma_m) &&
+                        reading.sigma_m > 0 && std::isfinite(reading.heading_deg.value_or(0));
+  if (!is_sound) {
+    return wrong("receiver reading", "a value is not finite or out of its range",
+                 "give degrees of WGS84 and a sigma above 0");
+  }
+  if (impl_->latest_receiver_s && reading.timestamp_s < *impl_->latest_receiver_s) {
+    return wrong("receiver reading", "it is earlier than the one before", "give them in order");
+  }
+  impl_->latest_receiver_s = reading.timestamp_s;
+  impl_->localizer.observe(
+      CoarsePosition{reading.timestamp_s, position, reading.sigma_m, reading.heading_deg});
+  return {};
+}
+
+Status Localizer::observe(const OdometryReading& reading) {
+  const bool is_sound = std::isfinite(reading.timestamp_s) && std::isfinite(reading.speed_mps) &&
+                        std::isfinite(reading.yaw_rate_dps);
+  if (!is_sound) return wrong("odometry reading", "a value is not finite", "leave it out");
+  if (impl_->latest_odometry_s && reading.timestamp_s <= *impl_->latest_odometry_s) {
+    return wrong("odometry reading", "it is not later than the one before", "give them in order");
+  }
+  impl_->latest_odometry_s = reading.timestamp_s;
+  impl_->localizer.observe(Odometry{reading.timestamp_s, reading.speed_mps, reading.yaw_rate_dps});
+  return {};
+}
+
+Result<Fix> Localizer::localize(double timestamp_s, const ImageView& image) {
+  if (!std::isfinite(timestamp_s)) {
+    return wrong("image", "its time is not finite", "give the seconds of the vehicle's clock");
+  }
+  if (impl_->latest_image_s && timestamp_s <= *impl_->latest_image_s) {
+    return wrong("image", "its time is not after that of the one before", "give them in order");
+  }
+  const Result<cv::Mat> grey = grey_image(image, impl_->camera);
+  if (!grey) return grey.error();
+  impl_->latest_image_s = timestamp_s;
+  const QueryFrame frame{timestamp_s, [&](const FeatureParameters& wanted) -> const FeatureSet& {
+                           return impl_->features_of(*grey, wanted);
+                         }};
+  const milepost::Result<milepost::Fix> fix = impl_->localizer.localize(frame);
+  if (!fix) return error_of(fix.error());
+  const std::lock_guard lock(impl_->mutex);
+  impl_->latest_place.reset();
+  if (fix->along_m) impl_->latest_place = OnSegment{{fix->version, fix->segment}, *fix->along_m};
+  return impl_->face_of(*fix);
+}
+
+Fix Localizer::fix_at(double timestamp_s) const {
+  return impl_->face_of(impl_->localizer.fix_at(timestamp_s));
+}
+
+MapAhead Localizer::map_ahead() const {
+  std::optional<OnSegment> from;
+  {
+    const std::lock_guard lock(impl_->mutex);
+    from = impl_->latest_place;
+  }
+  const TileProvider& provider = impl_->localizer.provider();
+  return map_ahead_of(*provider.held(), provider.wanted(), from);
+}
+
+Status Localizer::wait_for_map(double timestamp_s, const Patience& patience) {
+  const auto deadline = std::chrono::steady_clock::now() + patience.longest;
+  impl_->localizer.wait_for_tiles(timestamp_s, deadline, patience.cancelled);
+  if (impl_->localizer.provider().is_settled()) return {};
+  if (patience.cancelled && patience.cancelled()) {
+    return Error{ErrorCode::cancelled, "map", "stopped on request", ""};
+  }
+  return Error{ErrorCode::timed_out, "map", "not all of it has arrived in time",
+               "wait longer, or go on without"};
+}
+
+}  // namespace milepost::vehicle

@@ -1,0 +1,22 @@
+// What is held of the map ahead, for people to look at.
+#pragma once
+
+#include <milepost/localizer.h>
+
+#include <optional>
+
+#include "client/fetch/held_map.h"
+#include "client/fetch/wants.h"
+
+namespace milepost::vehicle {
+
+struct OnSegment {
+  SegmentKey key;
+  double along_m = 0;
+};
+
+// `from`: where the vehicle is, if that is known.
+MapAhead map_ahead_of(const HeldMap& held, const Wants& wants,
+                      const std::optional<OnSegment>& from);
+
+}  // namespace milepost::vehicle
