@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "client/fetch/segment_layer.h"
 #include "client/localize/seen_frame.h"
 #include "client/localize/tracked_position.h"
@@ -23,6 +25,13 @@ struct Followed {
   std::optional<Error> failure = std::nullopt;
 };
 
+// What was learned on the way of how far the camera's calibration is off: the logarithm of the true
+// focal length over the given one, and the shift of the principal point in focal lengths.
+struct LearnedCamera {
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d covariance;
+};
+
 // One belief of where the camera is on a segment. Not safe to use from several threads at once.
 class Follower {
  public:
@@ -38,6 +47,8 @@ class Follower {
   // Follows to the next frame. What speaks against the place is not taken in.
   virtual Followed follow(SeenFrame& frame) = 0;
   virtual TrackedPosition position() const = 0;
+  // Nothing of methods that do not learn it.
+  virtual std::optional<LearnedCamera> learned_camera() const { return std::nullopt; }
 };
 
 // Where a first look puts the camera, and what follows it from there.
@@ -58,8 +69,10 @@ class Scout {
  public:
   virtual ~Scout() = default;
 
-  // The places in `around` that this frame may have been taken from.
-  virtual Looked look(SeenFrame& frame, const AlongRange& around) = 0;
+  // The places in `around` that this frame may have been taken from; by the camera as it is known
+  // by now, or as it was given.
+  virtual Looked look(SeenFrame& frame, const AlongRange& around,
+                      const std::optional<LearnedCamera>& camera) = 0;
 };
 
 // The error where a method cannot use what a layer holds: corrupt.

@@ -18,10 +18,15 @@ constexpr double kProjectionReachM = 40;     // beyond what was driven since the
 
 }  // namespace
 
-Followed LandmarkFollower::begin(SeenFrame& frame, double along_m) {
+Followed LandmarkFollower::begin(SeenFrame& frame, double along_m,
+                                 const std::optional<LearnedCamera>& camera) {
   timestamp_s_ = frame.timestamp_s();
   last_along_m_ = along_m;
   belief_ = first_belief(along_m);
+  if (camera) {
+    belief_.mean.segment<3>(kLogFocal) = camera->mean;
+    belief_.covariance.block<3, 3>(kLogFocal, kLogFocal) = camera->covariance;
+  }
   Followed followed;
   const AlongRange region = AlongRange{along_m, along_m}.widened(method_.start_region_m);
   followed.failure = window_.cover(frame.held(), region).failure;
@@ -91,6 +96,11 @@ void LandmarkFollower::measure(const CompactFrame& frame, const PoseBelief& befo
 }
 
 TrackedPosition LandmarkFollower::position() const { return tracked(belief_); }
+
+std::optional<LearnedCamera> LandmarkFollower::learned_camera() const {
+  return LearnedCamera{belief_.mean.segment<3>(kLogFocal),
+                       belief_.covariance.block<3, 3>(kLogFocal, kLogFocal)};
+}
 
 TrackedPosition LandmarkFollower::tracked(const PoseBelief& belief) const {
   const Placed at = placed(belief);

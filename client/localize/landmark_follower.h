@@ -36,13 +36,14 @@ class LandmarkFollower : public Follower {
         window_(std::move(window)) {}
 
   // The belief of a first look that puts the camera near `along_m`, by this frame.
-  Followed begin(SeenFrame& frame, double along_m);
+  Followed begin(SeenFrame& frame, double along_m, const std::optional<LearnedCamera>& camera);
 
   void observe(const Odometry& odometry) override;
   TrackedPosition position_at(double timestamp_s) const override;
   AlongRange needed(double timestamp_s) const override;
   Followed follow(SeenFrame& frame) override;
   TrackedPosition position() const override;
+  std::optional<LearnedCamera> learned_camera() const override;
 
  private:
   // A belief about the pose as one about along and across the line.

@@ -20,14 +20,15 @@ class LandmarkScout : public Scout {
                 settings.on_estimate},
         window_(layer.key, settings.reach, layer.line) {}
 
-  Looked look(SeenFrame& frame, const AlongRange& around) override {
+  Looked look(SeenFrame& frame, const AlongRange& around,
+              const std::optional<LearnedCamera>& camera) override {
     const RouteLine& line = search_.layer->line;
     Looked looked;
     looked.failure = window_.cover(frame.held(), around).failure;
     lay_origin_near(line.point_at(std::clamp(around.middle_m(), 0.0, line.length_m())));
     for (const double along_m : densest_along_m(search_.compact(frame), around)) {
       auto follower = std::make_unique<LandmarkFollower>(search_, window_);
-      const Followed begun = follower->begin(frame, along_m);
+      const Followed begun = follower->begin(frame, along_m, camera);
       if (begun.failure && !looked.failure) looked.failure = begun.failure;
       if (!begun.measured) continue;
       looked.sightings.push_back({std::move(follower), begun.matches, begun.log_bayes_factor});

@@ -226,8 +226,8 @@ Scouted Localizer::Impl::scout(SeenFrame& frame, const CoarsePosition& around,
       continue;
     }
     const double reach_m = start_reach_m(around, frame.timestamp_s());
-    Looked looked =
-        (*segment)->scout->look(frame, AlongRange{where.along_m, where.along_m}.widened(reach_m));
+    Looked looked = (*segment)->scout->look(
+        frame, AlongRange{where.along_m, where.along_m}.widened(reach_m), std::nullopt);
     if (looked.failure) scouted.failure = looked.failure;
     for (Sighting& sighting : looked.sightings) {
       Place place{*segment,
@@ -313,7 +313,7 @@ void Localizer::Impl::look_again(Following& following, SeenFrame& frame) const {
   const double along_m = place.follower->position().along_m;
   if (!settings.method.looks_again || !following.second_look.is_due(along_m)) return;
   const AlongRange around = AlongRange{along_m, along_m}.widened(kSamePlaceM);
-  Looked looked = place.segment->scout->look(frame, around);
+  Looked looked = place.segment->scout->look(frame, around, following.second_look.camera(place));
   if (!looked.failure) following.second_look.compare(place, std::move(looked.sightings));
 }
 

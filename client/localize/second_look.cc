@@ -19,6 +19,11 @@ bool SecondLook::is_due(double along_m) const {
   return looks_ < kFirstLooks || apart_m_ > 0 || std::abs(along_m - looked_from_m_) >= kLookAgainM;
 }
 
+std::optional<LearnedCamera> SecondLook::camera(const Place& place) const {
+  if (looks_ < kFirstLooks || apart_m_ > 0) return std::nullopt;
+  return place.follower->learned_camera();
+}
+
 void SecondLook::compare(Place& place, std::vector<Sighting> sightings) {
   ++looks_;
   looked_from_m_ = place.follower->position().along_m;

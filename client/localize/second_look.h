@@ -13,6 +13,9 @@ class SecondLook {
  public:
   // Often at first and while the pose is uncertain, then each few metres.
   bool is_due(double along_m) const;
+  // The camera to look by: as it was given at first and while the pose is uncertain, for then what
+  // the belief learned of it may be as wrong as its pose; later as it is known by now.
+  std::optional<LearnedCamera> camera(const Place& place) const;
   // What was seen at the place without its belief. Where about as much of the frame agrees with
   // another pose, the place is that uncertain (`apart_m`) for some looks; where more does, twice in
   // turn, the belief begins again from there.

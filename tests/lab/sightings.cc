@@ -33,7 +33,8 @@ int fail(const Error& error) {
 Status look_along(Scout& scout, const RouteLine& line, const std::string& segment, SeenFrame& frame,
                   const std::string& filename, std::ostream& out) {
   for (double along_m = 0; along_m <= line.length_m(); along_m += kPlacesApartM) {
-    const Looked looked = scout.look(frame, AlongRange{along_m, along_m}.widened(kReachM));
+    const Looked looked =
+        scout.look(frame, AlongRange{along_m, along_m}.widened(kReachM), std::nullopt);
     if (looked.failure) return *looked.failure;
     for (const Sighting& sighting : looked.sightings) {
       const TrackedPosition at = sighting.follower->position();

@@ -104,7 +104,8 @@ class TrackletScout : public Scout {
                 const TrackletMethod& method)
       : layer_(layer), camera_(camera), settings_(std::move(settings)), method_(method) {}
 
-  Looked look(SeenFrame& frame, const AlongRange& around) override {
+  Looked look(SeenFrame& frame, const AlongRange& around,
+              const std::optional<LearnedCamera>& /*camera*/) override {
     auto follower = std::make_unique<TrackletFollower>(layer_, camera_, settings_, method_);
     const std::optional<int> begun = follower->begin(frame, around);
     Looked looked;

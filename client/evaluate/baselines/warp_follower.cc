@@ -177,7 +177,8 @@ class WarpScout : public Scout {
             const WarpMethod& method)
       : layer_(layer), camera_(camera), settings_(std::move(settings)), method_(method) {}
 
-  Looked look(SeenFrame& frame, const AlongRange& around) override {
+  Looked look(SeenFrame& frame, const AlongRange& around,
+              const std::optional<LearnedCamera>& /*camera*/) override {
     auto follower = std::make_unique<WarpFollower>(layer_, camera_, settings_, method_);
     const auto begun = follower->begin(frame, around);
     Looked looked;

@@ -27,6 +27,9 @@ class Standing : public Follower {
   AlongRange needed(double) const override { return {along_m_, along_m_}; }
   Followed follow(SeenFrame&) override { return {}; }
   TrackedPosition position() const override { return {along_m_, 0.1}; }
+  std::optional<LearnedCamera> learned_camera() const override {
+    return LearnedCamera{{0.05, 0, 0}, Eigen::Matrix3d::Identity()};
+  }
 
  private:
   double along_m_;
@@ -179,6 +182,24 @@ TEST_F(Places, SecondLooksAreOftenAtFirst) {
   against.push_back(sighting(22, 130));
   look.compare(followed, std::move(against));
   EXPECT_TRUE(look.is_due(20.1));
+}
+
+// What a belief that may have slipped learned of the camera is no help to find that out.
+TEST_F(Places, SecondLooksBelieveTheCameraOnceThePoseIsCertain) {
+  SecondLook look;
+  Place followed = place(20, 100, 5);
+  for (int frame = 0; frame < 10; ++frame) {
+    EXPECT_FALSE(look.camera(followed)) << frame;
+    look.compare(followed, {});
+  }
+  ASSERT_TRUE(look.camera(followed));
+  EXPECT_EQ(look.camera(followed)->mean[0], 0.05);
+  std::vector<Sighting> rival;
+  rival.push_back(sighting(22, 105));
+  look.compare(followed, std::move(rival));
+  EXPECT_FALSE(look.camera(followed));
+  for (int calm = 0; calm < 3; ++calm) look.compare(followed, {});
+  EXPECT_TRUE(look.camera(followed));
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ class WarpFollowing : public ::testing::Test {
   }
 
   void start_at(double along_m) {
-    Looked seen = scout_->look(frame(along_m), AlongRange{along_m - 20, along_m + 20});
+    Looked seen =
+        scout_->look(frame(along_m), AlongRange{along_m - 20, along_m + 20}, std::nullopt);
     ASSERT_EQ(seen.sightings.size(), 1U);
     follower_ = std::move(seen.sightings.front().follower);
   }
@@ -96,7 +97,7 @@ TEST_F(WarpFollowing, StaysAtTheEndOfTheRoad) {
 }
 
 TEST_F(WarpFollowing, NothingIsFoundWhereTheMapHasNoFrames) {
-  EXPECT_TRUE(scout_->look(frame(50), AlongRange{300, 340}).sightings.empty());
+  EXPECT_TRUE(scout_->look(frame(50), AlongRange{300, 340}, std::nullopt).sightings.empty());
 }
 
 TEST(MakeScout, RefusesALayerOfOtherItems) {
