@@ -10,7 +10,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 
 struct BackoffSettings {
   double first_s = 0.5;   // after the first failure; then twice as long each time
-  double longest_s = 30;  // also where a server asks for more
+  double longest_s = 10;  // also where a server asks for more
   double jitter = 0.25;   // of the pause, to either side, at random
 };
 

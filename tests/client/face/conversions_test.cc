@@ -1,0 +1,144 @@
+#include "client/face/conversions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace milepost::vehicle {
+namespace {
+
+constexpr double kMm = 0.001;
+
+Camera sound_camera() {
+  Camera camera;
+  camera.width_px = 600;
+  camera.height_px = 500;
+  camera.focal_x_px = 350;
+  camera.focal_y_px = 360;
+  camera.principal_x_px = 300;
+  camera.principal_y_px = 250;
+  return camera;
+}
+
+TEST(CheckCamera, TakesWhatIsSound) {
+  EXPECT_TRUE(check_camera(sound_camera()).ok());
+  Camera camera = sound_camera();
+  camera.lens = LensModel::brown_conrady;
+  camera.distortion = {0, 0, 0, 0};
+  EXPECT_TRUE(check_camera(camera).ok());  // has none
+}
+
+TEST(CheckCamera, RefusesWhatIsOutOfRange) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [](auto change) {
+    Camera camera = sound_camera();
+    change(camera);
+    const Status status = check_camera(camera);
+    return !status.ok() && status.error().code == ErrorCode::invalid_input &&
+           !status.error().mend.empty();
+  };
+  EXPECT_TRUE(refused([](Camera& camera) { camera.width_px = 0; }));
+  EXPECT_TRUE(refused([](Camera& camera) { camera.height_px = -1; }));
+  EXPECT_TRUE(refused([](Camera& camera) { camera.focal_x_px = 0; }));
+  EXPECT_TRUE(refused([&](Camera& camera) { camera.focal_y_px = nothing; }));
+  EXPECT_TRUE(refused([&](Camera& camera) { camera.principal_x_px = nothing; }));
+  EXPECT_TRUE(refused([&](Camera& camera) { camera.mounting.up_m = nothing; }));
+}
+
+TEST(CheckCamera, WhatIsNotSupportedIsAnErrorAndNotIgnored) {
+  Camera camera = sound_camera();
+  camera.lens = LensModel::brown_conrady;
+  camera.distortion = {0, 0, 0, 1e-4};
+  EXPECT_EQ(check_camera(camera).error().code, ErrorCode::unsupported);
+  camera = sound_camera();
+  camera.distortion = {0.1};
+  EXPECT_EQ(check_camera(camera).error().code, ErrorCode::unsupported);
+  camera = sound_camera();
+  camera.lens = LensModel::kannala_brandt;
+  EXPECT_EQ(check_camera(camera).error().code, ErrorCode::unsupported);
+}
+
+TEST(OpenSource, NamesWhatIsWrong) {
+  const auto file = open_source(FileSource{"/nowhere/at/all.map"});
+  ASSERT_FALSE(file.ok());
+  EXPECT_NE(file.error().line().find("all.map"), std::string::npos);
+  ServerSource server;
+  server.url = "ftp://host";
+  EXPECT_EQ(open_source(server).error().code, ErrorCode::invalid_input);
+}
+
+// Metres east, north and up from the camera to the reference point.
+EnuPoint from_camera(const CameraPlacement& camera, const Pose& pose) {
+  return LocalFrame(camera.position)
+      .enu_from_geo({pose.latitude_deg, pose.longitude_deg, pose.altitude_m});
+}
+
+CameraPlacement camera_looking(double heading_deg, double pitch_deg, double roll_deg) {
+  return {{49, 8.4, 110}, heading_deg, pitch_deg, roll_deg};
+}
+
+TEST(VehiclePose, WithoutMountingIsTheCameras) {
+  CameraPlacement camera = camera_looking(123, 4, -2);
+  for (int i = 0; i < 36; ++i) camera.covariance[i] = i % 7 == 0 ? 0.01 * (i + 1) : 0;
+  const Pose pose = vehicle_pose_of(camera, {});
+  EXPECT_NEAR(std::hypot(from_camera(camera, pose).east_m, from_camera(camera, pose).up_m), 0, kMm);
+  EXPECT_NEAR(pose.heading_deg, 123, 1e-9);
+  EXPECT_NEAR(pose.pitch_deg, 4, 1e-9);
+  EXPECT_NEAR(pose.roll_deg, -2, 1e-9);
+  for (int i = 0; i < 36; ++i) EXPECT_NEAR(pose.covariance[i], camera.covariance[i], 1e-6) << i;
+}
+
+// The camera 2 m before the reference point, 0.5 m to its right and 1.5 m above, driving east.
+TEST(VehiclePose, TheLeverArmLeadsBackToTheReferencePoint) {
+  const CameraPlacement camera = camera_looking(90, 0, 0);
+  Mounting mounting;
+  mounting.forward_m = 2;
+  mounting.right_m = 0.5;
+  mounting.up_m = 1.5;
+  const EnuPoint reference = from_camera(camera, vehicle_pose_of(camera, mounting));
+  EXPECT_NEAR(reference.east_m, -2, kMm);
+  EXPECT_NEAR(reference.north_m, 0.5, kMm);
+  EXPECT_NEAR(reference.up_m, -1.5, kMm);
+}
+
+TEST(VehiclePose, TheBoresightIsTakenOff) {
+  Mounting mounting;
+  mounting.yaw_deg = 10;
+  const Pose yawed = vehicle_pose_of(camera_looking(100, 0, 0), mounting);
+  EXPECT_NEAR(yawed.heading_deg, 90, 1e-9);
+  mounting = {};
+  mounting.pitch_deg = -5;
+  const Pose pitched = vehicle_pose_of(camera_looking(100, -5, 0), mounting);
+  EXPECT_NEAR(pitched.pitch_deg, 0, 1e-9);
+  EXPECT_NEAR(pitched.heading_deg, 100, 1e-9);
+  mounting = {};
+  mounting.roll_deg = 3;
+  EXPECT_NEAR(vehicle_pose_of(camera_looking(100, 0, 4), mounting).roll_deg, 1, 1e-9);
+}
+
+// A camera that looks to the right side, of a vehicle that climbs by 10 degrees, is rolled by them:
+// the vehicle's right stays level, its camera sees the road rise from right to left.
+TEST(VehiclePose, OfACameraThatLooksAsideTurnsPitchIntoRoll) {
+  Mounting mounting;
+  mounting.yaw_deg = 90;
+  const Pose pose = vehicle_pose_of(camera_looking(90, 0, 10), mounting);
+  EXPECT_NEAR(pose.heading_deg, 0, 1e-6);
+  EXPECT_NEAR(std::abs(pose.pitch_deg), 10, 1e-6);
+  EXPECT_NEAR(pose.roll_deg, 0, 1e-6);
+}
+
+// A degree of heading moves a reference point 2 m behind the camera by 35 mm across.
+TEST(VehiclePose, HeadingsUncertaintyMovesTheReferencePoint) {
+  CameraPlacement camera = camera_looking(0, 0, 0);
+  camera.covariance[21] = 1;
+  Mounting mounting;
+  mounting.forward_m = 2;
+  const Pose pose = vehicle_pose_of(camera, mounting);
+  EXPECT_NEAR(std::sqrt(pose.covariance[0]), 2 * kRadPerDeg, 1e-6);
+  EXPECT_NEAR(pose.covariance[7], 0, 1e-9);
+  EXPECT_NEAR(pose.covariance[21], 1, 1e-6);
+}
+
+}  // namespace
+}  // namespace milepost::vehicle
