@@ -1,6 +1,6 @@
 # Writes a C++ source with the text of INPUT. cmake -D INPUT=... -D OUTPUT=... -P embed_openapi.cmake
 file(READ "${INPUT}" text)
-file(WRITE "${OUTPUT}" "#include \"server/openapi.h\"
+file(WRITE "${OUTPUT}" "#include \"server/routes/openapi.h\"
 
 namespace milepost::server {
 

@@ -7,7 +7,7 @@
 
 #include "schema/base/result.h"
 #include "server/catalog/catalog.h"
-#include "server/settings.h"
+#include "server/http/settings.h"
 
 namespace milepost::server {
 

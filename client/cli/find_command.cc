@@ -280,6 +280,7 @@ int run_find(const std::string& program, std::vector<std::string> words) {
     FindRun run;
     run.finder = finder_settings(options, app.count("--start-heading-deg") > 0);
     if (!options.localized_out.empty()) run.localizer_source = *source;
+    run.stopped = stop_requested;
     run.on_frame = [&](std::size_t frame, const FindFix& fix, const Finder& finder) {
       recorder.observe(frame, fix.status, finder);
       progress.show("frame " + std::to_string(frame + 1) + " of " +

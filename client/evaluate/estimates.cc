@@ -5,11 +5,11 @@
 
 #include "client/evaluate/cells.h"
 #include "schema/tile/codec.h"
+#include "schema/tile/layer_parameters.h"
 
 namespace milepost {
 namespace {
 
-constexpr const char* kObservations = "observations";
 constexpr double kReachM = 20;            // of the tracklets told, around the fix
 constexpr std::size_t kRegressions = 12;  // told
 
@@ -63,9 +63,9 @@ std::string estimates_csv(const std::vector<EvaluatedFix>& fixes) {
 Result<std::optional<std::string>> regressions_csv(MapSource& source, const Fix& fix) {
   const Result<MapDescription> map = source.describe(fix.version);
   if (!map) return map.error();
-  if (!map->layers.contains(kObservations)) return std::optional<std::string>();
+  if (!map->layers.contains(layers::kObservations)) return std::optional<std::string>();
   const AlongRange around = AlongRange{*fix.along_m, *fix.along_m}.widened(kReachM);
-  const auto frames = source.tiles(fix.version, fix.segment, kObservations, around);
+  const auto frames = source.tiles(fix.version, fix.segment, layers::kObservations, around);
   if (!frames) return frames.error();
   std::vector<ObservedTracklet> tracklets;
   for (const TileFrame& frame : *frames) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "client/evaluate/statistics.h"
 #include "schema/geo/route_line.h"
 
 namespace milepost {
@@ -51,33 +52,6 @@ Result<std::optional<SegmentName>> segment_for_truth(const Fix& fix, const GeoPo
   if (!near) return near.error();
   if (near->empty()) return std::optional<SegmentName>();
   return std::optional(SegmentName{near->front().version, near->front().segment});
-}
-
-// The value below which a share of the sorted values lies, interpolated between ranks.
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double rank = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (rank - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-// The difference of two directions as the shorter turn between them, (-180, 180].
-double turn_deg(double from_deg, double to_deg) {
-  return 180 - wrapped_360(180 - (to_deg - from_deg));
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double deviation_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  double sum = 0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 void summarize_errors(const std::vector<EvaluatedFix>& fixes, Summary& summary) {

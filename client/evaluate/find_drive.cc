@@ -21,12 +21,14 @@ class Successor {
 
   void observe(const Odometry& wheels) { localizer_.observe(wheels); }
 
-  Result<FrameFix> localize(const Frame& frame, const cv::Mat& gray, const FindFix& found) {
+  Result<FrameFix> localize(const Frame& frame, const cv::Mat& gray, const FindFix& found,
+                            const Stopped& stopped) {
     if (found.status == FindStatus::tracking) {
       localizer_.observe(
           CoarsePosition{frame.timestamp_s, found.position, found.sigma_m, found.heading_deg});
     }
-    localizer_.wait_for_tiles(frame.timestamp_s, std::chrono::steady_clock::now() + kLongestWait);
+    localizer_.wait_for_tiles(frame.timestamp_s, std::chrono::steady_clock::now() + kLongestWait,
+                              stopped);
     const Stopwatch watch;
     std::optional<FeatureSet> features;
     const QueryFrame query{frame.timestamp_s,
@@ -71,7 +73,7 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
     const FindFix fix = finder.find(*gray, frame.timestamp_s);
     found.frames.push_back({frame.filename, fix, watch.ms()});
     if (successor) {
-      Result<FrameFix> localized = successor->localize(frame, *gray, fix);
+      Result<FrameFix> localized = successor->localize(frame, *gray, fix, run.stopped);
       if (!localized) return localized.error();
       found.localized.push_back(std::move(*localized));
     }

@@ -30,6 +30,7 @@ struct FindRun {
   // Not empty: a localizer of the default method runs beside the finder on this source, and has
   // nothing to start from but what is found.
   std::shared_ptr<MapSource> localizer_source;
+  Stopped stopped = {};  // asked while the localizer's map is waited for
   // Called after each frame with its number, from 0, and what was found in it; false stops the run
   // (cancelled).
   std::function<bool(std::size_t frame, const FindFix& fix, const Finder& finder)> on_frame;

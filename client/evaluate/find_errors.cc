@@ -4,17 +4,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "client/evaluate/report/report_numbers.h"
+#include "client/evaluate/statistics.h"
 
 namespace milepost {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-double turn_deg(double from_deg, double to_deg) {
-  const double turn = wrapped_360(to_deg - from_deg);
-  return turn > 180 ? turn - 360 : turn;
-}
 
 struct Claim {
   double error = 0;  // not negative

@@ -1,6 +1,8 @@
 #include "client/face/conversions.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "client/fetch/file_source.h"
@@ -32,6 +34,8 @@ ErrorCode code_of(milepost::ErrorCode code) {
 Error wrong(const std::string& what, const std::string& mend) {
   return {ErrorCode::invalid_input, "camera", what, mend};
 }
+
+constexpr double kLongestS = 3600;  // of a time-out
 
 bool is_above_zero(double value) { return std::isfinite(value) && value > 0; }
 
@@ -74,6 +78,12 @@ Error error_of(const milepost::Error& error) {
   return {code_of(error.code), error.where, error.what, error.mend};
 }
 
+std::chrono::steady_clock::time_point deadline_of(const Patience& patience) {
+  constexpr std::chrono::hours kYear(24 * 365);
+  return std::chrono::steady_clock::now() +
+         std::min(patience.longest, std::chrono::milliseconds(kYear));
+}
+
 Status check_camera(const Camera& camera) {
   if (camera.width_px < 1 || camera.height_px < 1) {
     return wrong("width_px and height_px are not both above 0", "give the size of its images");
@@ -114,6 +124,15 @@ Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
     return as_face(open_file_source(file->map_file));
   }
   const auto& server = std::get<ServerSource>(source);
+  const bool is_sound = is_above_zero(server.connect_timeout_s) &&
+                        is_above_zero(server.stall_timeout_s) &&
+                        is_above_zero(server.least_bytes_per_s) &&
+                        std::max(server.connect_timeout_s, server.stall_timeout_s) <= kLongestS;
+  if (!is_sound) {
+    return Error{ErrorCode::invalid_input, "source",
+                 "a time-out or the least bytes a second are not above 0, or longer than an hour",
+                 "leave them as they are"};
+  }
   HttpSourceSettings settings;
   settings.server_url = server.url;
   settings.cache_directory = server.cache_directory;
@@ -133,9 +152,13 @@ Pose vehicle_pose_of(const CameraPlacement& camera, const Mounting& mounting) {
   constexpr double kStep = 1e-6;
   for (int i = 0; i < 6; ++i) {
     const Vector6 step = kStep * Vector6::Unit(i);
-    derivative.col(i) =
-        (vehicle_from_camera(at + step, mounting) - vehicle_from_camera(at - step, mounting)) /
-        (2 * kStep);
+    Vector6 change =
+        vehicle_from_camera(at + step, mounting) - vehicle_from_camera(at - step, mounting);
+    // Headings turn over at south.
+    for (int angle = 3; angle < 6; ++angle) {
+      change[angle] = std::remainder(change[angle], 2 * std::numbers::pi);
+    }
+    derivative.col(i) = change / (2 * kStep);
   }
   // Of metres and degrees, as the covariances are.
   derivative.topRightCorner<3, 3>() *= kRadPerDeg;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <milepost/camera.h>
+#include <milepost/patience.h>
 #include <milepost/pose.h>
 #include <milepost/result.h>
 #include <milepost/source.h>
 
+#include <chrono>
 #include <memory>
 
 #include "client/fetch/map_source.h"
@@ -17,6 +19,9 @@
 namespace milepost::vehicle {
 
 Error error_of(const milepost::Error& error);
+
+// From now on. A year at most: longer ones are as good as for ever, and cannot be counted.
+std::chrono::steady_clock::time_point deadline_of(const Patience& patience);
 
 // Errors: invalid_input (a value out of its range), unsupported (a lens with distortion).
 Status check_camera(const Camera& camera);

@@ -129,12 +129,13 @@ Result<Finder> Finder::open(const Source& source, const Camera& camera,
   Status sound = check_camera(camera);
   if (sound) sound = check(settings);
   if (!sound) return sound.error();
+  const auto deadline = deadline_of(patience);
   const Result<std::shared_ptr<MapSource>> opened = open_source(source);
   if (!opened) return opened.error();
-  const auto deadline = steady_clock::now() + patience.longest;
   const auto is_over = [&] { return steady_clock::now() >= deadline; };
   const auto hurried =
-      (*opened)->until([&] { return is_over() || (patience.cancelled && patience.cancelled()); });
+      (*opened)->until([&] { return is_over() || (patience.cancelled && patience.cancelled()); },
+                       MapSource::Asking::as_often_as_set);
   const Result<std::vector<Wall>> walls = walls_to_search(*hurried, settings);
   if (!walls && walls.error().code == ErrorCode::cancelled && is_over()) {
     return Error{ErrorCode::timed_out, walls.error().where, "the walls did not arrive in time",

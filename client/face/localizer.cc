@@ -181,9 +181,9 @@ MapAhead Localizer::map_ahead() const {
 }
 
 Status Localizer::wait_for_map(double timestamp_s, const Patience& patience) {
-  const auto deadline = std::chrono::steady_clock::now() + patience.longest;
-  impl_->localizer.wait_for_tiles(timestamp_s, deadline, patience.cancelled);
-  if (impl_->localizer.provider().is_settled()) return {};
+  if (impl_->localizer.wait_for_tiles(timestamp_s, deadline_of(patience), patience.cancelled)) {
+    return {};
+  }
   if (patience.cancelled && patience.cancelled()) {
     return Error{ErrorCode::cancelled, "map", "stopped on request", ""};
   }

@@ -51,7 +51,8 @@ void add_missing(const HeldMap& held, const Want& want, MapAhead& ahead) {
 MapAhead map_ahead_of(const HeldMap& held, const Wants& wants,
                       const std::optional<OnSegment>& from) {
   MapAhead ahead;
-  if (held.around_failure) ahead.failure = error_of(*held.around_failure);
+  const bool is_known = !wants.around || held.segments_near(*wants.around);
+  if (!is_known && held.around_failure) ahead.failure = error_of(*held.around_failure);
   for (const Want& want : wants.tiles) add_missing(held, want, ahead);
   // What is wanted twice is missing once.
   const auto order = [](const MissingRange& range) {

@@ -129,7 +129,9 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
   }
 
   // No call takes long.
-  std::shared_ptr<MapSource> until(Stopped /*stopped*/) override { return shared_from_this(); }
+  std::shared_ptr<MapSource> until(Stopped /*stopped*/, Asking /*asking*/) override {
+    return shared_from_this();
+  }
 
  private:
   Status check(const MapVersion& version) const {

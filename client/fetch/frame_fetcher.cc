@@ -38,8 +38,8 @@ Result<std::map<std::uint32_t, Bytes>> FrameFetcher::fetch(const CacheKey& layer
     }
   }
   const FrameSink take = [&](std::uint32_t number, const Bytes& frame) {
-    missing.erase(number);
     frames[number] = frame;
+    return missing.erase(number) > 0;
   };
   while (!missing.empty()) {
     const Status fetched = with_retries(requests_.retry(), stopped, [&] {
@@ -54,10 +54,9 @@ Attempt FrameFetcher::fetch_once(const CacheKey& layer_key, const FrameRequest& 
                                  const FrameSink& take, const Stopped& stopped) {
   bool advanced = false;
   FrameCutter cutter(request.url, request.expected, [&](std::uint32_t number, const Bytes& frame) {
-    advanced = true;
     ++from_server_;
     cache_.store(key_of(layer_key, number), frame);
-    take(number, frame);
+    if (take(number, frame)) advanced = true;
   });
   HttpAnswer answer = requests_.get(
       request.url, bytes_of(request.expected), [&](ByteView piece) { return cutter.take(piece); },

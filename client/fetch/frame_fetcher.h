@@ -40,8 +40,10 @@ class FrameFetcher {
                                                const RequestFor& request_for,
                                                const Stopped& stopped);
 
-  // The same of one request, from the server alone; each frame is handed over as it arrives.
-  using FrameSink = std::function<void(std::uint32_t number, const Bytes& frame)>;
+  // The same of one request, from the server alone; each frame is handed over as it arrives, also
+  // one that only comes along. The sink says whether it was missing: an answer that breaks off
+  // after it brought one of those ends well.
+  using FrameSink = std::function<bool(std::uint32_t number, const Bytes& frame)>;
   Attempt fetch_once(const CacheKey& layer_key, const FrameRequest& request, const FrameSink& take,
                      const Stopped& stopped);
   // A frame of the cache; nothing where it is not there.

@@ -1,6 +1,7 @@
 #include "client/fetch/held_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -51,6 +52,7 @@ std::optional<std::vector<NearbySegment>> HeldMap::segments_near(const Surroundi
       geodesic_distance_m(known_around.position, asked.position) + asked.radius_m <=
           known_around.radius_m;
   if (!is_known) return std::nullopt;
+  const double moved_m = geodesic_distance_m(known_around.position, asked.position);
   std::vector<NearbySegment> near;
   for (NearbySegment segment : around) {
     const HeldSegment* held = find({segment.version, segment.segment});
@@ -58,6 +60,8 @@ std::optional<std::vector<NearbySegment>> HeldMap::segments_near(const Surroundi
       const LineProjection nearest = held->layer->line.project(asked.position);
       segment.along_m = nearest.along_m;
       segment.distance_m = nearest.distance_m;
+    } else {  // no farther than that
+      segment.distance_m = std::abs(segment.distance_m - moved_m);
     }
     if (segment.distance_m <= asked.radius_m) near.push_back(std::move(segment));
   }

@@ -119,13 +119,16 @@ struct HttpShared {
 
 class HttpSource : public MapSource {
  public:
-  HttpSource(std::shared_ptr<HttpShared> shared, Stopped stopped)
+  HttpSource(std::shared_ptr<HttpShared> shared, Stopped stopped, int attempts)
       : shared_(std::move(shared)),
         stopped_(std::move(stopped)),
+        retry_(shared_->requests.retry()),
         base_url_(shared_->base_url),
         cache_(*shared_->cache),
         requests_(shared_->requests),
-        fetcher_(shared_->fetcher) {}
+        fetcher_(shared_->fetcher) {
+    retry_.attempts = attempts;
+  }
 
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                    double radius_m) override {
@@ -249,21 +252,32 @@ class HttpSource : public MapSource {
     cache_.touch(CacheKey::map_document(version.map, version.build));
     cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
     std::set<std::uint32_t> missing;
-    for (const TileEntry& entry : tiles) missing.insert(entry.index);
+    for (const TileEntry& entry : **index) {
+      if (std::ranges::find(tiles, entry.index, &TileEntry::index) != tiles.end()) {
+        missing.insert(entry.index);
+      }
+    }
+    if (missing.empty()) {  // the document was another when they were asked for
+      return {Error{ErrorCode::corrupt, segment_url(version, segment),
+                    "its tiles are not those that it told before", "build the map anew"}};
+    }
     const std::string tiles_url = segment_url(version, segment) + "/tiles";
     return fetcher_.fetch_once(
         {version.map, version.build, segment, layer, 0},
         request_for_tiles(tiles_url, layer, **index, missing),
         [&](std::uint32_t number, const Bytes& frame) {
           take({number, frame});
+          return missing.contains(number);
         },
         stopped_);
   }
 
-  std::shared_ptr<MapSource> until(Stopped stopped) override {
-    return std::make_shared<HttpSource>(shared_, [first = stopped_, second = std::move(stopped)] {
+  std::shared_ptr<MapSource> until(Stopped stopped, Asking asking) override {
+    const int attempts = asking == Asking::once ? 1 : retry_.attempts;
+    const auto either = [first = stopped_, second = std::move(stopped)] {
       return is_stopped(first) || is_stopped(second);
-    });
+    };
+    return std::make_shared<HttpSource>(shared_, either, attempts);
   }
 
   SourceCounters counters() const override {
@@ -318,6 +332,11 @@ class HttpSource : public MapSource {
             "ask for the map's current build"};
   }
 
+  Status document(const std::string& url, const DocumentReader& read) {
+    return with_retries(retry_, stopped_,
+                        [&] { return requests_.try_document(url, read, stopped_); });
+  }
+
   // What the server says now; while it cannot be reached, or something else answers in its place,
   // what is known without it, if anything is.
   template <class Item>
@@ -333,7 +352,7 @@ class HttpSource : public MapSource {
       items = std::move(*parsed);
       return ok_status();
     };
-    const Status fetched = with_retries(requests_.retry(), stopped_, [&] {
+    const Status fetched = with_retries(retry_, stopped_, [&] {
       Attempt attempt = requests_.try_document(url, read, stopped_);
       if (is_unavailable(attempt.status)) {
         shared_->server_away_until_s = shared_->steady_s() + kServerAway_s;
@@ -398,17 +417,14 @@ class HttpSource : public MapSource {
       cache_.remove(key);
     }
     Shared fetched_document;
-    const Status fetched = requests_.document(
-        url,
-        [&](const std::string& text) -> Status {
-          Result<Document> document = parse(text, url);
-          if (!document.ok()) return document.error();
-          cache_.store(key, as_bytes(text));
-          on_fetched();
-          fetched_document = keep(std::move(*document));
-          return ok_status();
-        },
-        stopped_);
+    const Status fetched = document(url, [&](const std::string& text) -> Status {
+      Result<Document> document = parse(text, url);
+      if (!document.ok()) return document.error();
+      cache_.store(key, as_bytes(text));
+      on_fetched();
+      fetched_document = keep(std::move(*document));
+      return ok_status();
+    });
     if (!fetched.ok()) return fetched.error();
     return fetched_document;
   }
@@ -453,6 +469,7 @@ class HttpSource : public MapSource {
 
   const std::shared_ptr<HttpShared> shared_;
   const Stopped stopped_;
+  RetryPolicy retry_;
   const std::string& base_url_;
   TileCache& cache_;
   ServerRequests& requests_;
@@ -471,7 +488,7 @@ Result<std::shared_ptr<MapSource>> make_http_source(const HttpSourceSettings& se
   auto shared = std::make_shared<HttpShared>(std::move(base_url).value(), settings,
                                              std::move(parts), std::move(cache).value());
   return std::shared_ptr<MapSource>(
-      std::make_shared<HttpSource>(std::move(shared), settings.stopped));
+      std::make_shared<HttpSource>(std::move(shared), settings.stopped, settings.attempts));
 }
 
 Result<std::shared_ptr<MapSource>> open_http_source(const HttpSourceSettings& settings) {

@@ -117,8 +117,10 @@ class MapSource {
   virtual Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
                               const std::string& layer, const std::vector<TileEntry>& tiles,
                               const TileSink& take) = 0;
-  // The same source for a caller whose calls end with `cancelled` soon after `stopped` says so.
-  virtual std::shared_ptr<MapSource> until(Stopped stopped) = 0;
+  // The same source for a caller whose calls end with `cancelled` soon after `stopped` says so; and
+  // who has a back-off of his own, if each call asks once.
+  enum class Asking { once, as_often_as_set };
+  virtual std::shared_ptr<MapSource> until(Stopped stopped, Asking asking) = 0;
 };
 
 }  // namespace milepost

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/fetch/map_source.h"
-#include "schema/geo/route_line.h"
+#include "schema/geo/near.h"
 
 namespace milepost {
 
@@ -14,7 +14,7 @@ struct KnownLine {
   MapVersion version;
   std::string segment;
   double length_m = 0;  // as the map says
-  RouteLine line;
+  BoxedLine line;
 };
 
 // Adds the segment to `lines`. One whose vertices make no line is left out: it is never near.
@@ -26,7 +26,7 @@ void add_line(const MapVersion& version, const SegmentDescription& segment,
 std::vector<NearbySegment> lines_near(const std::vector<KnownLine>& lines, const GeoPoint& position,
                                       double radius_m);
 
-// Errors: invalid_input for a position or radius that is none.
+// Errors: invalid_input for a position or radius (schema/geo/near.h) that is none.
 Status check_near_query(const GeoPoint& position, double radius_m);
 
 }  // namespace milepost

@@ -35,6 +35,8 @@ void ProviderState::await_what_is_wanted() {
   for (const NearbySegment& near : around_) segments_[{near.version, near.segment}];
   for (const Want& want : wants_.tiles) {
     Segment& segment = segments_[want.segment];
+    const auto gone = gone_.find(want.segment.version);
+    if (gone != gone_.end()) segment.held.failure = gone->second;
     if (!segment.held.layer) continue;
     for (const TileEntry& entry : entries_meeting(segment.held.layer->index, want.range)) {
       if (!segment.held.tiles.contains(entry.index)) segment.awaited[entry.index];
@@ -47,10 +49,8 @@ void ProviderState::let_go() {
   for (auto& [key, segment] : segments_) {
     if (!segment.held.layer) continue;
     std::vector<AlongRange> kept;
-    std::vector<AlongRange> wanted;
     for (const Want& want : wants_.tiles) {
       if (want.segment != key) continue;
-      wanted.push_back(want.range);
       kept.push_back(want.range.widened(settings_.kept_m));
     }
     const auto meets = [&](const std::vector<AlongRange>& ranges, std::uint32_t index) {
@@ -61,10 +61,12 @@ void ProviderState::let_go() {
     };
     const std::size_t before = segment.held.tiles.size() + segment.held.missing.size();
     std::erase_if(segment.held.tiles, [&](const auto& tile) { return !meets(kept, tile.first); });
-    std::erase_if(segment.awaited, [&](const auto& tile) { return !meets(wanted, tile.first); });
+    std::erase_if(segment.awaited, [&](const auto& tile) { return !meets(kept, tile.first); });
     std::erase_if(segment.held.missing,
                   [&](const auto& tile) { return !segment.awaited.contains(tile.first); });
-    changed |= before != segment.held.tiles.size() + segment.held.missing.size();
+    if (before == segment.held.tiles.size() + segment.held.missing.size()) continue;
+    segment.published = nullptr;
+    changed = true;
   }
   const auto is_of_use = [&](const SegmentKey& key) {
     const bool wanted =
@@ -102,26 +104,54 @@ std::optional<FetchTask> ProviderState::next_fetch(SteadyTime now) const {
     asked.radius_m += settings_.surroundings_margin_m;
     return AskAround{asked};
   }
-  for (const auto& [key, segment] : segments_) {
-    if (!segment.held.layer && segment.documents.is_due(now)) return ReadDocuments{key};
+  const auto lacks_documents = [&](const SegmentKey& key) {
+    const Segment& segment = segments_.at(key);
+    return !segment.held.layer && segment.documents.is_due(now) && !gone_.contains(key.version);
+  };
+  for (const Want& want : wants_.tiles) {
+    if (lacks_documents(want.segment)) return ReadDocuments{want.segment};
   }
-  if (!network_.is_due(now)) return std::nullopt;
   for (const Want& want : wants_.tiles) {
     const Segment& segment = segments_.at(want.segment);
-    if (!segment.held.layer) continue;
+    if (!segment.held.layer || !network_.is_due(now)) continue;
     std::vector<TileEntry> run = first_run(segment, want.range, now);
     if (!run.empty()) return FetchTiles{segment.held.layer, std::move(run)};
+  }
+  for (const SegmentKey& key : documents_wanted()) {
+    if (lacks_documents(key)) return ReadDocuments{key};
   }
   return std::nullopt;
 }
 
-// Tiles to fetch that stand side by side.
+// Of the surroundings, the segments that may be the nearest, as far as they were told.
+std::vector<SegmentKey> ProviderState::documents_wanted() const {
+  if (!wants_.around) return {};
+  const double moved_m = geodesic_distance_m(known_around_.position, wants_.around->position);
+  std::vector<std::pair<double, SegmentKey>> nearest;
+  for (const NearbySegment& near : around_) {
+    const double least_m = std::abs(near.distance_m - moved_m);
+    if (least_m <= wants_.around->radius_m) {
+      nearest.emplace_back(least_m, SegmentKey{near.version, near.segment});
+    }
+  }
+  std::ranges::stable_sort(nearest, {}, &std::pair<double, SegmentKey>::first);
+  std::vector<SegmentKey> keys;
+  for (auto& [least_m, key] : nearest) {
+    if (keys.size() == settings_.max_segments) break;
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+// Tiles to fetch that stand side by side; none while some may be stored, so that the rest comes in
+// one request.
 std::vector<TileEntry> ProviderState::first_run(const Segment& segment, const AlongRange& range,
                                                 SteadyTime now) const {
   std::vector<TileEntry> run;
   for (const TileEntry& entry : entries_meeting(segment.held.layer->index, range)) {
     const auto awaited = segment.awaited.find(entry.index);
-    const bool is_due = awaited != segment.awaited.end() && !awaited->second.may_be_stored &&
+    if (awaited != segment.awaited.end() && awaited->second.may_be_stored) return {};
+    const bool is_due = awaited != segment.awaited.end() && !awaited->second.is_hopeless &&
                         awaited->second.backoff.is_due(now);
     if (is_due) run.push_back(entry);
     if ((!is_due && !run.empty()) || run.size() == segment.longest_run) break;
@@ -144,12 +174,20 @@ std::optional<SteadyTime> ProviderState::next_due(SteadyTime now) const {
   return first;
 }
 
-void ProviderState::take(const AskAround& task, std::vector<NearbySegment> near) {
+void ProviderState::take(const AskAround& task, std::vector<NearbySegment> near, SteadyTime now) {
+  // Who told a build that is gone does not know yet: he is asked again.
+  const bool is_old = std::erase_if(near, [&](const NearbySegment& segment) {
+                        return gone_.contains(segment.version);
+                      }) > 0;
   around_ = std::move(near);
-  if (around_.size() > settings_.max_segments) around_.resize(settings_.max_segments);
   known_around_ = task.asked;
   around_failure_.reset();
   around_backoff_.succeeded();
+  if (is_old) {
+    known_around_.radius_m = -1;
+    around_failure_ = gone_.begin()->second;
+    around_backoff_.failed(now, 0, settings_.backoff, random_);
+  }
   let_go();
   await_what_is_wanted();
   publish();
@@ -160,6 +198,7 @@ void ProviderState::take(std::shared_ptr<const SegmentLayer> layer) {
   if (found == segments_.end()) return;
   found->second.held.layer = std::move(layer);
   found->second.held.failure.reset();
+  found->second.published = nullptr;
   found->second.documents.succeeded();
   await_what_is_wanted();
   publish();
@@ -171,6 +210,7 @@ void ProviderState::take(const SegmentKey& key, std::uint32_t index,
   if (found == segments_.end() || found->second.awaited.erase(index) == 0) return;
   found->second.held.tiles[index] = std::move(tile);
   found->second.held.missing.erase(index);
+  found->second.published = nullptr;
   publish();
 }
 
@@ -188,8 +228,10 @@ void ProviderState::is_unusable(const SegmentKey& key, std::uint32_t index, Erro
   const auto awaited = found->second.awaited.find(index);
   if (awaited == found->second.awaited.end()) return;
   awaited->second.may_be_stored = false;
+  awaited->second.is_hopeless = error.code == ErrorCode::corrupt;
   awaited->second.backoff.failed(now, 0, settings_.backoff, random_);
   found->second.held.missing.insert_or_assign(index, std::move(error));
+  found->second.published = nullptr;
   publish();
 }
 
@@ -206,6 +248,7 @@ void ProviderState::failed(const FetchTask& task, const FetchFailure& failure) {
   const auto found = segments_.find(key);
   if (found == segments_.end()) return;
   Segment& segment = found->second;
+  segment.published = nullptr;
   if (documents) {
     segment.held.failure = failure.error;
     segment.documents.failed(failure.ended, failure.retry_after_s, settings_.backoff, random_);
@@ -228,6 +271,7 @@ void ProviderState::failed(const FetchTask& task, const FetchFailure& failure) {
 
 void ProviderState::network_failed(const FetchFailure& failure) {
   if (!failing_since_) failing_since_ = failure.began;
+  failed_at_ = failure.ended;
   network_.failed(failure.ended, failure.retry_after_s, settings_.backoff, random_);
 }
 
@@ -244,23 +288,23 @@ void ProviderState::succeeded(const FetchTask& task) {
 
 // The build is no more: its segments are not what they were, and the surroundings are asked anew.
 void ProviderState::give_up(const MapVersion& version, const Error& error) {
+  gone_.insert_or_assign(version, error);
   for (auto& [key, segment] : segments_) {
     if (key.version != version) continue;
     segment = Segment();
     segment.held.failure = error;
-    segment.documents.failed(SteadyTime::max() - std::chrono::hours(1), 0, settings_.backoff,
-                             random_);
   }
   std::erase_if(around_, [&](const NearbySegment& near) { return near.version == version; });
   known_around_.radius_m = -1;
   publish();
 }
 
-bool ProviderState::is_away(SteadyTime now) const {
-  return failing_since_ && seconds_between(*failing_since_, now) > settings_.away_s;
+// Not for that nothing was asked since.
+bool ProviderState::is_away() const {
+  return failing_since_ && seconds_between(*failing_since_, failed_at_) > settings_.away_s;
 }
 
-bool ProviderState::is_settled(const Want& want, SteadyTime now) const {
+bool ProviderState::is_settled(const Want& want) const {
   const Segment& segment = segments_.at(want.segment);
   if (!segment.held.layer) return segment.held.failure.has_value();
   return std::ranges::all_of(entries_meeting(segment.held.layer->index, want.range),
@@ -268,25 +312,26 @@ bool ProviderState::is_settled(const Want& want, SteadyTime now) const {
                                const auto awaited = segment.awaited.find(entry.index);
                                if (awaited == segment.awaited.end()) return true;
                                if (awaited->second.may_be_stored) return false;
-                               return awaited->second.backoff.failures() > 0 || is_away(now);
+                               return awaited->second.backoff.failures() > 0 || is_away();
                              });
 }
 
-bool ProviderState::is_settled(SteadyTime now) const {
+bool ProviderState::is_settled() const {
   if (!knows_surroundings() && !around_failure_) return false;
-  const auto is_open = [&](const NearbySegment& near) {
-    const Segment& segment = segments_.at({near.version, near.segment});
+  const auto is_open = [&](const SegmentKey& key) {
+    const Segment& segment = segments_.at(key);
     return segment.held.layer || segment.held.failure;
   };
-  return std::ranges::all_of(around_, is_open) &&
-         std::ranges::all_of(wants_.tiles, [&](const Want& want) { return is_settled(want, now); });
+  return std::ranges::all_of(documents_wanted(), is_open) &&
+         std::ranges::all_of(wants_.tiles, [&](const Want& want) { return is_settled(want); });
 }
 
+// Segments that did not change are shared with what was held before.
 void ProviderState::publish() {
   auto held = std::make_shared<HeldMap>();
-  // Segments that did not change since are shared with what was held before.
-  for (const auto& [key, segment] : segments_) {
-    held->segments[key] = std::make_shared<const HeldSegment>(segment.held);
+  for (auto& [key, segment] : segments_) {
+    if (!segment.published) segment.published = std::make_shared<const HeldSegment>(segment.held);
+    held->segments[key] = segment.published;
   }
   held->known_around = known_around_;
   held->around = around_;

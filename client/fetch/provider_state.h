@@ -20,7 +20,7 @@ namespace milepost {
 
 struct ProviderSettings {
   double surroundings_margin_m = 100;  // known beyond what is wanted, so that few ask for it
-  std::size_t max_segments = 64;       // of the surroundings, whose lines are held: the nearest
+  std::size_t max_segments = 64;       // of the surroundings whose lines are read: the nearest
   double kept_m = 200;                 // tiles so far beyond what is wanted are held still
   BackoffSettings backoff;
   double slow_s = 2;  // a request that fails after longer speaks of the network, not of a tile
@@ -71,7 +71,7 @@ class ProviderState {
   std::optional<SteadyTime> next_due(SteadyTime now) const;
 
   // What became of these. Of tiles that are not wanted any more nothing is kept.
-  void take(const AskAround& task, std::vector<NearbySegment> near);
+  void take(const AskAround& task, std::vector<NearbySegment> near, SteadyTime now);
   void take(std::shared_ptr<const SegmentLayer> layer);
   void take(const SegmentKey& key, std::uint32_t index, std::shared_ptr<const DecodedTile> tile);
   void is_not_stored(const SegmentKey& key, std::uint32_t index);
@@ -81,11 +81,12 @@ class ProviderState {
   void succeeded(const FetchTask& task);
 
   // Whether all that is wanted is held, or was asked for in vain.
-  bool is_settled(SteadyTime now) const;
+  bool is_settled() const;
 
  private:
   struct Awaited {
     bool may_be_stored = true;
+    bool is_hopeless = false;  // it came as it is meant to be, and cannot be used
     Backoff backoff;
   };
   struct Segment {
@@ -93,11 +94,13 @@ class ProviderState {
     Backoff documents;
     std::map<std::uint32_t, Awaited> awaited;
     std::size_t longest_run = 1000;  // tiles asked for at once: fewer after that failed
+    std::shared_ptr<const HeldSegment> published;  // what is held, unless it changed since
   };
 
   bool knows_surroundings() const;
-  bool is_away(SteadyTime now) const;
-  bool is_settled(const Want& want, SteadyTime now) const;
+  std::vector<SegmentKey> documents_wanted() const;
+  bool is_away() const;
+  bool is_settled(const Want& want) const;
   std::vector<TileEntry> first_run(const Segment& segment, const AlongRange& range,
                                    SteadyTime now) const;
   void await_what_is_wanted();
@@ -114,7 +117,9 @@ class ProviderState {
   std::optional<Error> around_failure_;
   Backoff around_backoff_;
   Backoff network_;
-  std::optional<SteadyTime> failing_since_;
+  std::optional<SteadyTime> failing_since_;  // the network ...
+  SteadyTime failed_at_;                     // ... the last time
+  std::map<MapVersion, Error> gone_;         // builds that are no more
   std::shared_ptr<const HeldMap> held_ = std::make_shared<const HeldMap>();
   std::mt19937 random_;
 };

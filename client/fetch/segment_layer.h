@@ -8,41 +8,40 @@
 
 #include "client/fetch/map_source.h"
 #include "client/fetch/wants.h"
-#include "schema/feature/codebook.h"
 #include "schema/feature/types.h"
 #include "schema/geo/route_line.h"
 #include "schema/store/map_store.h"
-#include "schema/tile/layer_items.h"
+#include "schema/tile/layer_parameters.h"
 
 namespace milepost {
 
 // What holds for every segment of a build.
-struct LayerParameters {
-  LayerItems items = LayerItems::tracklets;
-  FeatureParameters feature;         // that the map's descriptors were made with
-  double map_focal_px = 0;           // geometric mean of the map camera's focal lengths
-  std::optional<Codebook> codebook;  // of a layer of landmarks
+struct BuildLayer {
+  FeatureParameters feature;  // that the map's descriptors were made with
+  LayerParameters parameters;
 };
 
 struct SegmentLayer {
   SegmentKey key;
   std::string name;  // of the layer
-  std::shared_ptr<const LayerParameters> parameters;
+  std::shared_ptr<const BuildLayer> build;
   RouteLine line;
   std::vector<TileEntry> index;  // of all its tiles, ascending
 
   const std::string& map() const { return key.version.map; }
+  const LayerParameters& parameters() const { return build->parameters; }
+  const FeatureParameters& feature() const { return build->feature; }
 };
 
 // Errors: those of MapSource::describe; invalid_input if the map has no layer of that name;
 // corrupt.
-Result<std::shared_ptr<const LayerParameters>> read_layer_parameters(MapSource& source,
-                                                                     const MapVersion& version,
-                                                                     const std::string& layer);
+Result<std::shared_ptr<const BuildLayer>> read_build_layer(MapSource& source,
+                                                           const MapVersion& version,
+                                                           const std::string& layer);
 
 // Errors: those of MapSource::segment; corrupt.
 Result<std::shared_ptr<const SegmentLayer>> read_segment_layer(
     MapSource& source, const SegmentKey& key, const std::string& layer,
-    std::shared_ptr<const LayerParameters> parameters);
+    std::shared_ptr<const BuildLayer> build);
 
 }  // namespace milepost

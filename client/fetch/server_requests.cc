@@ -34,9 +34,4 @@ Attempt ServerRequests::try_document(const std::string& url, const DocumentReade
   return {std::move(done), answer.retry_after_s};
 }
 
-Status ServerRequests::document(const std::string& url, const DocumentReader& read,
-                                const Stopped& stopped) {
-  return with_retries(retry_, stopped, [&] { return try_document(url, read, stopped); });
-}
-
 }  // namespace milepost

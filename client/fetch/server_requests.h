@@ -27,8 +27,6 @@ class ServerRequests {
   // One request for a document of at most 64 MiB. Errors: those of HttpAnswer but corrupt, which is
   // foreign_answer, also for what the reader calls so; and the reader's others.
   Attempt try_document(const std::string& url, const DocumentReader& read, const Stopped& stopped);
-  // The same, tried again.
-  Status document(const std::string& url, const DocumentReader& read, const Stopped& stopped);
 
   const RetryPolicy& retry() const { return retry_; }
   std::uint64_t made() const { return made_; }

@@ -18,7 +18,7 @@ struct TileProvider::Impl {
   Impl(const std::shared_ptr<MapSource>& given, std::string layer_name,
        const ProviderSettings& settings)
       : layer(std::move(layer_name)),
-        source(given->until([this] { return stopping.load(); })),
+        source(given->until([this] { return stopping.load(); }, MapSource::Asking::once)),
         state(settings) {
     reader = std::thread([this] { read_stored(); });
     fetcher = std::thread([this] { fetch(); });
@@ -42,14 +42,14 @@ struct TileProvider::Impl {
   Attempt ask(const AskAround& task);
   Attempt ask(const ReadDocuments& task);
   Attempt ask(const FetchTiles& task);
-  Result<std::shared_ptr<const LayerParameters>> parameters_of(const MapVersion& version);
+  Result<std::shared_ptr<const BuildLayer>> parameters_of(const MapVersion& version);
   void take(const SegmentLayer& of, std::uint32_t index, ByteView encoded);
 
   const std::string layer;
   std::atomic<bool> stopping = false;
   const std::shared_ptr<MapSource> source;  // whose calls end when this does
   // Of the fetcher's thread alone.
-  std::map<MapVersion, std::shared_ptr<const LayerParameters>> parameters;
+  std::map<MapVersion, std::shared_ptr<const BuildLayer>> parameters;
 
   mutable std::mutex mutex;  // guards `state`; never held over I/O or decoding
   mutable std::condition_variable changed;
@@ -85,14 +85,14 @@ Wants TileProvider::wanted() const {
 
 bool TileProvider::is_settled() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->state.is_settled(steady_clock::now());
+  return impl_->state.is_settled();
 }
 
-void TileProvider::wait_for_change(SteadyTime deadline) const {
+void TileProvider::wait_for_change(const std::shared_ptr<const HeldMap>& before,
+                                   SteadyTime deadline) const {
   Impl::Lock lock(impl_->mutex);
-  const std::shared_ptr<const HeldMap> before = impl_->state.held();
   while (steady_clock::now() < deadline && impl_->state.held() == before &&
-         !impl_->state.is_settled(steady_clock::now())) {
+         !impl_->state.is_settled()) {
     // Some of what is wanted counts as asked for in vain when time has passed.
     const SteadyTime soon = steady_clock::now() + std::chrono::milliseconds(100);
     impl_->changed.wait_until(lock, std::min(soon, deadline));
@@ -160,7 +160,7 @@ Attempt TileProvider::Impl::ask(const AskAround& task) {
   auto near = source->segments_near(task.asked.position, task.asked.radius_m);
   if (!near) return {near.error()};
   const std::lock_guard lock(mutex);
-  state.take(task, std::move(*near));
+  state.take(task, std::move(*near), steady_clock::now());
   return {};
 }
 
@@ -183,18 +183,18 @@ Attempt TileProvider::Impl::ask(const FetchTiles& task) {
                              });
 }
 
-Result<std::shared_ptr<const LayerParameters>> TileProvider::Impl::parameters_of(
+Result<std::shared_ptr<const BuildLayer>> TileProvider::Impl::parameters_of(
     const MapVersion& version) {
   const auto known = parameters.find(version);
   if (known != parameters.end()) return known->second;
-  auto read = read_layer_parameters(*source, version, layer);
+  auto read = read_build_layer(*source, version, layer);
   if (read) parameters[version] = *read;
   return read;
 }
 
 // Decodes without the lock.
 void TileProvider::Impl::take(const SegmentLayer& of, std::uint32_t index, ByteView encoded) {
-  Result<DecodedTile> tile = decode_tile_of(of.parameters->items, encoded);
+  Result<DecodedTile> tile = decode_tile_of(of.parameters().items, encoded);
   std::shared_ptr<const DecodedTile> finished;
   if (tile) finished = std::make_shared<const DecodedTile>(std::move(*tile));
   const std::lock_guard lock(mutex);

@@ -32,9 +32,9 @@ class TileProvider {
 
   // Whether all that is wanted is held, or was asked for in vain.
   bool is_settled() const;
-  // For replays of recorded drives: waits until it is settled, or until something has arrived that
-  // more may be wanted for, or until `deadline`.
-  void wait_for_change(SteadyTime deadline) const;
+  // For replays of recorded drives: waits until it is settled, or until something has arrived since
+  // `before`, for which more may be wanted, or until `deadline`.
+  void wait_for_change(const std::shared_ptr<const HeldMap>& before, SteadyTime deadline) const;
 
  private:
   struct Impl;

@@ -266,9 +266,8 @@ class CurlTransport : public Transport {
   static std::optional<CURLcode> run(const Handle& connection, const Stopped& stopped) {
     constexpr int kLongestWaitMs = 50;
     CURLM* const multi = connection.multi.get();
-    curl_multi_add_handle(multi, connection.easy.get());
     int running = 1;
-    CURLMcode driven = CURLM_OK;
+    CURLMcode driven = curl_multi_add_handle(multi, connection.easy.get());
     while (driven == CURLM_OK && !is_stopped(stopped)) {
       driven = curl_multi_perform(multi, &running);
       if (running == 0) break;

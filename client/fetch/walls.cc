@@ -31,7 +31,7 @@ Result<std::vector<MapDescription>> maps_with_walls(MapSource& source) {
   for (const MapVersion& version : *versions) {
     Result<MapDescription> map = source.describe(version);
     if (!map.ok()) return map.error();
-    if (map->layers.contains(kWallsLayer)) maps.push_back(std::move(*map));
+    if (map->layers.contains(layers::kWalls)) maps.push_back(std::move(*map));
   }
   return maps;
 }
@@ -60,7 +60,7 @@ Result<std::vector<Wall>> walls_in(MapSource& source, const MapVersion& version,
 Result<std::vector<Wall>> walls_seen_from(MapSource& source, const MapVersion& version,
                                           const Bounds& area, double view_m) {
   const Bounds view = with_view(area, view_m);
-  Result<std::vector<Wall>> walls = walls_in(source, version, kWallsLayer, view);
+  Result<std::vector<Wall>> walls = walls_in(source, version, layers::kWalls, view);
   if (walls) std::erase_if(*walls, [&](const Wall& wall) { return !bounds_of(wall).meets(view); });
   return walls;
 }

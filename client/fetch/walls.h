@@ -8,15 +8,13 @@
 #include "client/fetch/map_source.h"
 #include "schema/base/cell_grid.h"
 #include "schema/base/result.h"
+#include "schema/tile/layer_parameters.h"
 #include "schema/tile/wall.h"
 
 namespace milepost {
 
-// The layer's name in the maps of milepost-mapper.
-inline constexpr const char* kWallsLayer = "walls";
-
-// The maps of the source that have a layer kWallsLayer, by name. Their bounds say where a vehicle
-// that knows nothing of its position may be. Errors: those of MapSource::maps and describe.
+// The maps of the source that have a layer layers::kWalls, by name. Their bounds say where a
+// vehicle that knows nothing of its position may be. Errors: those of MapSource::maps and describe.
 Result<std::vector<MapDescription>> maps_with_walls(MapSource& source);
 
 // The walls of a map's layer in the cells that meet `box`, borders included: sorted, each once.

@@ -4,7 +4,7 @@ namespace milepost {
 
 Error unusable_items(const SegmentLayer& layer) {
   return {ErrorCode::corrupt, "map '" + layer.map() + "', layer '" + layer.name + "'",
-          std::string("the method cannot use its ") + name_of(layer.parameters->items),
+          std::string("the method cannot use its ") + name_of(layer.parameters().items),
           "build the map anew"};
 }
 

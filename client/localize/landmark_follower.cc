@@ -133,7 +133,7 @@ std::optional<PoseEstimate> LandmarkFollower::expected_to_be(const CompactFrame&
   PoseEstimate estimate{before, {}};
   for (int look = 0; look < 2; ++look) {
     const auto matches =
-        match_expected(frame, search_.layer->parameters->codebook->step(), window_.landmarks(),
+        match_expected(frame, search_.layer->parameters().codebook->step(), window_.landmarks(),
                        region, estimate.belief, search_.camera, method_.match);
     estimate = solver.estimate(before, estimate.belief.mean, matches);
     const auto agreeing = static_cast<double>(estimate.agreeing.size());
@@ -148,7 +148,7 @@ std::optional<PoseEstimate> LandmarkFollower::expected_to_be(const CompactFrame&
 std::optional<PoseEstimate> LandmarkFollower::searched(const CompactFrame& frame,
                                                        const PoseBelief& before,
                                                        const AlongRange& region) const {
-  const auto matches = match_anywhere(frame, search_.layer->parameters->codebook->step(),
+  const auto matches = match_anywhere(frame, search_.layer->parameters().codebook->step(),
                                       window_.landmarks(), region, method_.match);
   const PoseSolver solver(search_.camera, frame.features, window_.landmarks(), method_.solver);
   const auto agreed = estimate_by_consensus(solver, before, matches, method_.consensus);
@@ -157,7 +157,7 @@ std::optional<PoseEstimate> LandmarkFollower::searched(const CompactFrame& frame
   PoseEstimate estimate = *agreed;
   for (int look = 0; look < kSearchLooks; ++look) {
     const auto again =
-        match_expected(frame, search_.layer->parameters->codebook->step(), window_.landmarks(),
+        match_expected(frame, search_.layer->parameters().codebook->step(), window_.landmarks(),
                        region, estimate.belief, search_.camera, method_.match);
     estimate = solver.estimate(before, estimate.belief.mean, again);
     if (static_cast<int>(estimate.agreeing.size()) < search_.min_start_support) return std::nullopt;

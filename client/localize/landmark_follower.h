@@ -22,7 +22,7 @@ struct LandmarkSearch {
   std::function<void(const TrackletEstimate&)> on_estimate;
 
   const CompactFrame& compact(SeenFrame& frame) const {
-    return frame.compact(layer->parameters->feature, *layer->parameters->codebook);
+    return frame.compact(layer->feature(), *layer->parameters().codebook);
   }
 };
 

@@ -47,7 +47,7 @@ class LandmarkScout : public Scout {
   // Where the scales of what looks alike put the camera: the densest places, apart from each other.
   std::vector<double> densest_along_m(const CompactFrame& frame, const AlongRange& around) const {
     const LandmarkMethod& method = search_.method;
-    const auto matches = match_anywhere(frame, search_.layer->parameters->codebook->step(),
+    const auto matches = match_anywhere(frame, search_.layer->parameters().codebook->step(),
                                         window_.landmarks(), around, method.match);
     std::vector<PositionEstimate> left =
         along_by_scale(matches, frame.features, window_.landmarks(), search_.camera,
@@ -73,10 +73,10 @@ class LandmarkScout : public Scout {
 Method landmark_method(const LandmarkMethod& settings) {
   const auto make_scout = [settings](const SegmentLayer& layer, const QueryCamera& camera,
                                      const ScoutSettings& scout) -> Result<std::unique_ptr<Scout>> {
-    if (layer.parameters->items != LayerItems::landmarks) return unusable_items(layer);
+    if (layer.parameters().items != LayerItems::landmarks) return unusable_items(layer);
     return std::unique_ptr<Scout>(std::make_unique<LandmarkScout>(layer, camera, scout, settings));
   };
-  return {kDefaultMethod, "tracklets", make_scout, true};
+  return {kDefaultMethod, layers::kLandmarks, make_scout, true};
 }
 
 }  // namespace milepost

@@ -8,6 +8,7 @@
 #include "client/fetch/tile_provider.h"
 #include "client/localize/place.h"
 #include "client/localize/second_look.h"
+#include "schema/geo/near.h"
 
 namespace milepost {
 namespace {
@@ -38,6 +39,8 @@ struct Following {
   Place place;
   int frames_without_measurement = 0;
   SecondLook second_look = {};
+  std::optional<double> doubt =
+      {};  // log odds of the place, where the latest frame left it in doubt
 };
 
 // What a look about a position came to.
@@ -155,19 +158,24 @@ Fix Localizer::fix_at(double timestamp_s) const {
   const Place& place = following->place;
   const TrackedPosition position = place.follower->position_at(timestamp_s);
   if (!place.is_on_segment(position.along_m)) return unlocated(timestamp_s, FixStatus::off_map);
-  return impl_->located(place, position, timestamp_s, FixStatus::predicted);
+  Fix fix = impl_->located(place, position, timestamp_s, FixStatus::predicted);
+  if (following->doubt) impl_->widen(fix, *following->doubt, place, {});
+  return fix;
 }
 
 const TileProvider& Localizer::provider() const { return impl_->provider; }
 
-void Localizer::wait_for_tiles(double timestamp_s, SteadyTime deadline, const Stopped& stopped) {
+bool Localizer::wait_for_tiles(double timestamp_s, SteadyTime deadline, const Stopped& stopped) {
   TileProvider& provider = impl_->provider;
-  while (!is_stopped(stopped) && std::chrono::steady_clock::now() < deadline) {
+  constexpr std::chrono::milliseconds kBetweenQuestions(50);
+  for (;;) {
     const std::shared_ptr<const HeldMap> held = provider.held();
     provider.want(impl_->wants(timestamp_s, *held));
     // What is held may have told of more to want.
-    if (provider.is_settled() && provider.held() == held) return;
-    provider.wait_for_change(deadline);
+    if (provider.is_settled() && provider.held() == held) return true;
+    const SteadyTime now = std::chrono::steady_clock::now();
+    if (is_stopped(stopped) || now >= deadline) return false;
+    provider.wait_for_change(held, std::min(deadline, now + kBetweenQuestions));
   }
 }
 
@@ -187,19 +195,24 @@ Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(
   Result<std::unique_ptr<Scout>> scout = settings.method.make_scout(*layer, camera, settings.scout);
   if (!scout) return scout.error();
   auto segment = std::make_shared<OpenSegment>(OpenSegment{layer, std::move(*scout)});
-  if (segments.size() == kMaxCandidates) segments.erase(segments.begin());
+  // Those that no place is on are forgotten, the oldest first.
+  const auto unused =
+      std::ranges::find_if(segments, [](const auto& old) { return old.use_count() == 1; });
+  if (segments.size() >= kMaxCandidates && unused != segments.end()) segments.erase(unused);
   segments.push_back(segment);
   return segment;
 }
 
 // Segments that pass nearer may be the one that a position is on.
 Surroundings Localizer::Impl::surroundings(const CoarsePosition& around) const {
-  return {around.position, settings.start_radius_m + settings.start_sigmas * around.sigma_m};
+  const double radius_m = settings.start_radius_m + settings.start_sigmas * around.sigma_m;
+  return {around.position,
+          std::min(radius_m, kMaxNearRadiusM - settings.provider.surroundings_margin_m)};
 }
 
 // How far to either side of a position it is looked for the camera.
 double Localizer::Impl::start_reach_m(const CoarsePosition& around, double timestamp_s) const {
-  const double age_s = timestamp_s - around.timestamp_s;
+  const double age_s = std::max(0.0, timestamp_s - around.timestamp_s);
   return settings.start_sigmas * around.sigma_m + settings.start_reach_m +
          settings.receiver.speed_mps * age_s;
 }
@@ -331,9 +344,13 @@ Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
   const Followed followed = place.advance(frame);
   if (followed.failure) noted = followed.failure;
   if (followed.failure && followed.failure->code == ErrorCode::gone) {  // rebuilt meanwhile
-    state = Searching{FixStatus::lost};
+    Searching lost{FixStatus::lost};
+    const double sigma_m = std::max(place.follower->position().sigma_m, kElsewhereM);
+    lost.lost_at = CoarsePosition{frame.timestamp_s(), place.position(), sigma_m};
+    state = std::move(lost);
     return search(frame);
   }
+  following.doubt.reset();
   if (place.measured) look_again(following, frame);
   place.weigh(place.log_bayes_factor, fresh(coarse, frame.timestamp_s()));
   if (place.measured && place.odds.log() >= settings.odds.hold) {
@@ -346,7 +363,8 @@ Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
     Fix fix = located(place, FixStatus::predicted);
     // What speaks against the place may be a truck before it, or that it is elsewhere.
     const bool in_doubt = place.log_bayes_factor < kDoubt || place.odds.log() < settings.odds.hold;
-    if (in_doubt) widen(fix, std::min(place.odds.log(), settings.odds.doubt), place, {});
+    if (in_doubt) following.doubt = std::min(place.odds.log(), settings.odds.doubt);
+    if (following.doubt) widen(fix, *following.doubt, place, {});
     return fix;
   }
   Searching lost{FixStatus::lost};

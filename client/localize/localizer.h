@@ -70,8 +70,8 @@ class Localizer {
 
   // For replays of recorded drives, so that their fixes are the same each time: waits until what
   // a frame of that time needs of the map is held or was asked for in vain, at the latest until
-  // `deadline`, or until it is stopped.
-  void wait_for_tiles(double timestamp_s, SteadyTime deadline, const Stopped& stopped = {});
+  // `deadline`, or until it is stopped. Whether it is so.
+  bool wait_for_tiles(double timestamp_s, SteadyTime deadline, const Stopped& stopped = {});
 
  private:
   struct Impl;

@@ -12,7 +12,7 @@ constexpr double kRivalPart = 0.6;  // of the best pose's matches, from which an
 
 // Whether two places are the same, as far as they know.
 bool is_same_place(const Place& a, const Place& b) {
-  return a.segment == b.segment &&
+  return a.layer().key == b.layer().key &&
          std::abs(a.follower->position().along_m - b.follower->position().along_m) < kSamePlaceM;
 }
 

@@ -4,13 +4,13 @@
 #include "schema/geo/geodesy.h"
 #include "schema/store/map_store.h"
 #include "schema/tile/codec.h"
+#include "schema/tile/layer_parameters.h"
 #include "schema/tile/table.h"
 
 namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kLayer = "walls";
 constexpr std::size_t kMaxCopies = 20'000'000;  // of walls in a second and further cells
 
 Status copy_segment(const MapReader& from, const std::string& id, MapWriter& to) {
@@ -46,7 +46,7 @@ Status copy_cells(const MapReader& from, const std::string& layer, MapWriter& to
 Status copy_others(const MapReader& from, MapWriter& to) {
   if (const Status status = to.set_feature_json(from.feature_json()); !status) return status;
   for (const auto& [layer, parameters] : from.layers()) {
-    if (layer == kLayer) continue;
+    if (layer == layers::kWalls) continue;
     if (const Status status = to.add_layer(layer, parameters); !status) return status;
     if (const Status status = copy_cells(from, layer, to); !status) return status;
   }
@@ -76,7 +76,7 @@ Status add_walls(const std::vector<WallTile>& tiles, const fs::path& map_file, M
     }
     const Bytes frame = encode_walls(tile);
     if (const Status status = check_readable(frame, map_file); !status) return status;
-    const Status status = to.add_cell(kLayer, tile.cell, tile.walls.size(), frame);
+    const Status status = to.add_cell(layers::kWalls, tile.cell, tile.walls.size(), frame);
     if (!status) return status;
   }
   return ok_status();
@@ -124,7 +124,7 @@ Result<WallLayerReport> write_wall_layer(const fs::path& map_file, const std::ve
     if (!old) return old.error();
     if (const Status status = copy_others(*old, *writer); !status) return status.error();
   }
-  if (const Status status = writer->add_layer(kLayer, parameters_json); !status) {
+  if (const Status status = writer->add_layer(layers::kWalls, parameters_json); !status) {
     return status.error();
   }
   const std::vector<WallTile> tiles = tiles_of(*storable);

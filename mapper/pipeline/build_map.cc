@@ -78,7 +78,7 @@ class SegmentBuilder {
             map.add_tile(plan_.id, layer.layer, tile.index, tile.along, tile.items, tile.frame);
         if (!added.ok()) return added;
         ++report.tiles;
-        if (layer.layer != "tracklets") continue;
+        if (layer.layer != layers::kLandmarks) continue;
         report.tracklets += tile.items;
         report.drives.back().tracklets += tile.items;
         report.tracklet_bytes += tile.frame.size();
@@ -148,8 +148,9 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   Status status = map->set_feature_json(to_json(settings.feature));
   for (const Layer& layer : layers_of(settings)) {
     if (status.ok())
-      status = map->add_layer(layer.name, parameters_json(layer, drives.front().camera, *codebook,
-                                                          settings.tile_length_m));
+      status = map->add_layer(
+          layer.name,
+          to_json(parameters_of(layer, drives.front().camera, *codebook, settings.tile_length_m)));
   }
   BuildReport report;
   for (std::size_t i = 0; i < plans.size() && status.ok(); ++i) {

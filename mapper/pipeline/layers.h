@@ -8,7 +8,7 @@
 #include "mapper/tracklets/regression.h"
 #include "schema/drive/drive.h"
 #include "schema/feature/codebook.h"
-#include "schema/tile/layer_items.h"
+#include "schema/tile/layer_parameters.h"
 
 namespace milepost {
 
@@ -31,10 +31,8 @@ struct Layer {
 // each frame; `wisurf`, a descriptor of each whole frame.
 std::vector<Layer> layers_of(const BuildSettings& settings);
 
-// The layer's parameters as the map keeps them (FORMAT.md 2.4): a JSON object. The camera's focal
-// lengths are among them, since feature scales of another camera compare only after scaling by
-// their ratio; and of landmarks the codebook.
-std::string parameters_json(const Layer& layer, const Camera& camera, const Codebook& codebook,
-                            double tile_length_m);
+// What the map says of the layer.
+LayerParameters parameters_of(const Layer& layer, const Camera& camera, const Codebook& codebook,
+                              double tile_length_m);
 
 }  // namespace milepost

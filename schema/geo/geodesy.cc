@@ -32,6 +32,10 @@ double wrapped_360(double angle_deg) {
   return turned >= 360.0 ? 0.0 : turned;  // a tiny negative angle rounds up to a whole turn
 }
 
+double turn_deg(double from_deg, double to_deg) {
+  return 180 - wrapped_360(180 - (to_deg - from_deg));
+}
+
 LocalFrame::LocalFrame(const GeoPoint& origin)
     : frame_(origin.latitude_deg, origin.longitude_deg, origin.altitude_m) {}
 

@@ -36,6 +36,9 @@ double geodesic_azimuth_deg(const GeoPoint& from, const GeoPoint& to);
 // Brings an angle into [0, 360).
 double wrapped_360(double angle_deg);
 
+// The shorter turn from a direction to another, clockwise, (-180, 180].
+double turn_deg(double from_deg, double to_deg);
+
 // The tangent frame at an origin. Immutable, so safe to share between threads.
 class LocalFrame {
  public:

@@ -45,7 +45,7 @@ Status ServedMap::load(const MapReader& reader) {
     const Status loaded = load_segment(reader, id);
     if (!loaded) return loaded;
     const ServedSegment& segment = segments_.at(id);
-    box_ = segments_.size() == 1 ? segment.box : DegreeBox::joined(box_, segment.box);
+    box_ = segments_.size() == 1 ? segment.line.box : box_.joined(segment.line.box);
     length_m += segment.length_m;
   }
   const Status cells_loaded = load_cells(reader);
@@ -71,9 +71,8 @@ Status ServedMap::load_segment(const MapReader& reader, const std::string& id) {
     tiles[layer] = std::move(*index);
   }
   Document document = document_of(segment_document(name_, build_, *stored, tiles));
-  const DegreeBox box = DegreeBox::around(line->vertices());
-  segments_.emplace(id, ServedSegment{stored->length_m, std::move(*line), box, std::move(tiles),
-                                      std::move(document)});
+  segments_.emplace(id, ServedSegment{stored->length_m, BoxedLine(std::move(*line)),
+                                      std::move(tiles), std::move(document)});
   return ok_status();
 }
 

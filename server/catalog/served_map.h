@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "schema/geo/route_line.h"
+#include "schema/geo/near.h"
 #include "schema/store/map_store.h"
-#include "server/catalog/degree_box.h"
 #include "server/catalog/document.h"
 #include "server/catalog/reader_pool.h"
 
@@ -17,8 +16,7 @@ namespace milepost::server {
 
 struct ServedSegment {
   double length_m = 0;  // as the map states it
-  RouteLine line;
-  DegreeBox box;
+  BoxedLine line;
   std::map<std::string, std::vector<TileEntry>> tiles;  // layer -> index, ascending; every layer
   Document document;
 };
@@ -39,7 +37,7 @@ class ServedMap {
   const std::map<std::string, std::vector<CellEntry>>& cells() const { return cells_; }
   const Document& document() const { return document_; }
   const Document& areas() const { return areas_; }  // the index of the cells
-  const DegreeBox& box() const { return box_; }     // of all segments' lines
+  const Bounds& box() const { return box_; }        // of all segments' lines
 
   // The stored frame of a tile, checked against its entry in the index.
   // Errors: corrupt (the frame is not the one of the index), io.
@@ -61,7 +59,7 @@ class ServedMap {
   std::map<std::string, std::string> layers_;
   std::map<std::string, ServedSegment> segments_;
   std::map<std::string, std::vector<CellEntry>> cells_;
-  DegreeBox box_;
+  Bounds box_;
   Document document_;
   Document areas_;
   std::unique_ptr<ReaderPool> readers_;  // synchronizes itself

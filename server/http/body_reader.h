@@ -5,7 +5,7 @@
 
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
-#include "server/response.h"
+#include "server/message/response.h"
 
 namespace milepost::server {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "server/response.h"
+#include "server/message/response.h"
 
 namespace milepost::server {
 

@@ -11,7 +11,7 @@
 #include "server/catalog/catalog.h"
 #include "server/http/asio.h"
 #include "server/http/sessions.h"
-#include "server/settings.h"
+#include "server/http/settings.h"
 
 namespace milepost::server {
 

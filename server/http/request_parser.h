@@ -10,9 +10,9 @@
 #include <boost/beast/http/string_body.hpp>
 
 #include "server/http/error_code.h"
-#include "server/request.h"
-#include "server/response.h"
-#include "server/settings.h"
+#include "server/http/settings.h"
+#include "server/message/request.h"
+#include "server/message/response.h"
 
 namespace milepost::server {
 

@@ -10,8 +10,8 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
 
-#include "server/handle.h"
 #include "server/http/head.h"
+#include "server/routes/handle.h"
 
 namespace milepost::server {
 namespace {

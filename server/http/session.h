@@ -13,8 +13,8 @@
 #include "server/http/body_reader.h"
 #include "server/http/request_parser.h"
 #include "server/http/sessions.h"
-#include "server/response.h"
-#include "server/settings.h"
+#include "server/http/settings.h"
+#include "server/message/response.h"
 
 namespace milepost::server {
 

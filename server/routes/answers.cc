@@ -1,6 +1,6 @@
 #include "server/routes/answers.h"
 
-#include "server/conditional.h"
+#include "server/message/conditional.h"
 
 namespace milepost::server {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "schema/base/digest.h"
 #include "server/catalog/document.h"
-#include "server/response.h"
+#include "server/message/response.h"
 
 namespace milepost::server {
 

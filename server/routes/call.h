@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "server/catalog/catalog.h"
-#include "server/target.h"
+#include "server/message/target.h"
 
 namespace milepost::server {
 

@@ -1,7 +1,7 @@
 // The routes, one function each. All are pure; errors become problem answers by their code.
 #pragma once
 
-#include "server/response.h"
+#include "server/message/response.h"
 #include "server/routes/call.h"
 
 namespace milepost::server {

@@ -10,8 +10,6 @@
 namespace milepost::server {
 namespace {
 
-constexpr double kMaxRadiusM = 10'000;  // bounds the work and the size of one answer
-
 struct Near {
   const ServedMap* map = nullptr;
   const std::string* segment = nullptr;
@@ -42,7 +40,7 @@ Result<GeoPoint> position_of(const Query& query) {
 Result<double> radius_of(const Query& query) {
   const Result<double> radius_m = query.number("radius_m");
   if (!radius_m) return radius_m.error();
-  if (*radius_m <= 0 || *radius_m > kMaxRadiusM) {
+  if (!is_near_radius(*radius_m)) {
     return Error{ErrorCode::invalid_input, "parameter radius_m", "is out of range",
                  "write metres, more than 0 and at most 10000"};
   }
@@ -51,12 +49,10 @@ Result<double> radius_of(const Query& query) {
 
 void collect(const ServedMap& map, const GeoPoint& position, double radius_m,
              std::vector<Near>& found) {
-  if (!map.box().may_be_within(position, radius_m)) return;
+  if (!may_be_within(map.box(), position, radius_m)) return;
   for (const auto& [id, segment] : map.segments()) {
-    if (!segment.box.may_be_within(position, radius_m)) continue;
-    const LineProjection projection = segment.line.project(position);
-    if (projection.distance_m > radius_m) continue;
-    found.push_back({&map, &id, segment.length_m, projection});
+    const auto nearest = segment.line.nearest_within(position, radius_m);
+    if (nearest) found.push_back({&map, &id, segment.length_m, *nearest});
   }
 }
 

@@ -1,6 +1,6 @@
 // Routes about the server itself.
-#include "server/openapi.h"
 #include "server/routes/answers.h"
+#include "server/routes/openapi.h"
 #include "server/routes/routes.h"
 
 namespace milepost::server {

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "server/handle.h"
 #include "server/http/body_reader.h"
 #include "server/http/head.h"
+#include "server/routes/handle.h"
 #include "tests/fuzz/check.h"
 #include "tests/server/test_map.h"
 

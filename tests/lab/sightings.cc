@@ -74,7 +74,7 @@ Result<std::shared_ptr<const HeldMap>> all_of_the_map(const std::string& file,
       }
     }
     provider.want(wants);
-    while (!provider.is_settled()) provider.wait_for_change(deadline);
+    while (!provider.is_settled()) provider.wait_for_change(provider.held(), deadline);
   }
   return provider.held();
 }
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
     if (!segment->layer) return fail(*segment->failure);
     const auto scout = method.make_scout(*segment->layer, query_camera, ScoutSettings());
     if (!scout) return fail(scout.error());
-    FeatureExtractor extractor(segment->layer->parameters->feature);
+    FeatureExtractor extractor(segment->layer->feature());
     for (std::size_t i = 0; i < drive->frames.size(); i += every) {
       const Result<cv::Mat> gray = frames.gray(i);
       if (!gray) return fail(gray.error());

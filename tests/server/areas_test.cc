@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "schema/base/digest.h"
-#include "server/handle.h"
+#include "server/routes/handle.h"
 #include "tests/server/responses.h"
 #include "tests/server/test_map.h"
 

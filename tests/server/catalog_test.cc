@@ -11,7 +11,6 @@
 
 #include "schema/base/file.h"
 #include "schema/store/sqlite.h"
-#include "server/catalog/degree_box.h"
 #include "tests/server/test_map.h"
 
 namespace milepost::server {
@@ -366,36 +365,6 @@ TEST_F(CatalogTest, CellOfAnotherLengthThanPromisedIsCorrupt) {
   ASSERT_FALSE(cell.ok());
   EXPECT_THAT(cell.error().line(),
               HasSubstr("town.map, layer walls, cell " + std::to_string(entry.cell)));
-}
-
-// The reach of a box is checked against geodesics.
-TEST(DegreeBoxTest, NeverRulesOutWhatIsWithin) {
-  const std::vector<GeoPoint> corners = {{0, 0, 0},      {60, 10, 0},      {-60, -10, 0},
-                                         {85, 179.9, 0}, {0, -179.999, 0}, {89.99, 0, 0}};
-  for (const GeoPoint& corner : corners) {
-    const DegreeBox box = DegreeBox::around({corner});
-    for (int direction = 0; direction < 360; direction += 15) {
-      const LocalFrame frame(corner);
-      const double angle = direction * 3.14159265358979 / 180;
-      const GeoPoint there =
-          frame.geo_from_enu({4000 * std::sin(angle), 4000 * std::cos(angle), 0});
-      const double distance_m = geodesic_distance_m(corner, there);
-      EXPECT_TRUE(box.may_be_within(there, distance_m)) << corner.latitude_deg << ' ' << direction;
-    }
-  }
-}
-
-TEST(DegreeBoxTest, RulesOutWhatIsFar) {
-  const DegreeBox box = DegreeBox::around({{49, 8, 0}, {49.01, 8.02, 0}});
-  EXPECT_TRUE(box.may_be_within({49.005, 8.01, 0}, 1));
-  EXPECT_TRUE(box.may_be_within({49.0105, 8.01, 0}, 60));
-  EXPECT_FALSE(box.may_be_within({49.0105, 8.01, 0}, 50));
-  EXPECT_TRUE(box.may_be_within({49.005, 8.021, 0}, 80));
-  EXPECT_FALSE(box.may_be_within({49.005, 8.021, 0}, 60));
-  EXPECT_FALSE(box.may_be_within({49.005, -172, 0}, 10000));
-  const DegreeBox west = DegreeBox::around({{0, -179.9999, 0}});
-  EXPECT_TRUE(west.may_be_within({0, 179.9999, 0}, 30));
-  EXPECT_FALSE(west.may_be_within({0, 179.9999, 0}, 10));
 }
 
 }  // namespace

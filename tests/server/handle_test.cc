@@ -1,4 +1,4 @@
-#include "server/handle.h"
+#include "server/routes/handle.h"
 
 #include <gmock/gmock.h>
 

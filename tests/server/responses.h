@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/response.h"
+#include "server/message/response.h"
 
 namespace milepost::server {
 

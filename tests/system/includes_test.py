@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks #include lines: who may depend on whom (the link line cannot see header-only use).
+"""Checks #include lines: who may depend on whom (the link line cannot see header-only use), and no circles.
 
 usage: includes_test.py ROOT      exit code 1 and one line a fault when a rule is broken
 """
@@ -78,6 +78,40 @@ def chain_to(library, path, includes):
     return None
 
 
+def room_of(path):
+    return path.rsplit("/", 1)[0]
+
+
+def circles_among(edges):
+    """Each circle of a graph once, as the list of its nodes; `edges`: node -> nodes."""
+    circles, done = [], set()
+
+    def walk(node, way):
+        if node in way:
+            circles.append(way[way.index(node):] + [node])
+            return
+        if node in done:
+            return
+        for following in sorted(edges.get(node, ())):
+            walk(following, way + [node])
+        done.add(node)
+
+    for node in sorted(edges):
+        walk(node, [])
+    return circles
+
+
+def circles_of(includes):
+    """Circles of files, and of rooms: a room is a folder, and the files of an inner one are not the outer's."""
+    files = {path: {name for name in ours if name in includes} for path, (ours, _) in includes.items()}
+    rooms = {}
+    for path, names in files.items():
+        rooms.setdefault(room_of(path), set()).update(room_of(name) for name in names)
+    for room, others in rooms.items():
+        others.discard(room)
+    return circles_among(files) + circles_among(rooms)
+
+
 def faults_of(root):
     files = sorted(str(path.relative_to(root)) for room in ROOMS
                    for path in (root / room).rglob("*") if path.suffix in (".h", ".cc"))
@@ -94,6 +128,8 @@ def faults_of(root):
             chain = chain_to(library, path, includes) if starts_with_any(path, parts) else None
             if chain:
                 yield f"{path}: reaches {library} through {' -> '.join(chain)}"
+    for circle in circles_of(includes):
+        yield "circle of includes: " + " -> ".join(circle)
     if not files:
         yield f"{root}: holds no source file"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "client/localize/landmark_method.h"
+#include "schema/tile/layer_parameters.h"
 
 namespace milepost {
 namespace {
@@ -53,16 +54,18 @@ TrackletMethod inverse_scale_method() {
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
-      {"wisurf", "wisurf", warp_scouts(warp_method(FrameComparison::image))},
-      {"scale-only", "frames", warp_scouts(warp_method(FrameComparison::scale))},
-      {"tracklet-matching", "observations", tracklet_scouts(matching_method())},
-      {"tracklet-regression", "tracklets-scale", tracklet_scouts(paper_method(PaperFilter::none))},
-      {"tracklet-regression-kalman", "tracklets-scale",
+      {"wisurf", layers::kWholeImages, warp_scouts(warp_method(FrameComparison::image))},
+      {"scale-only", layers::kFrames, warp_scouts(warp_method(FrameComparison::scale))},
+      {"tracklet-matching", layers::kObservations, tracklet_scouts(matching_method())},
+      {"tracklet-regression", layers::kTrackletsByScale,
+       tracklet_scouts(paper_method(PaperFilter::none))},
+      {"tracklet-regression-kalman", layers::kTrackletsByScale,
        tracklet_scouts(paper_method(PaperFilter::kalman))},
-      {"tracklet-regression-particle", "tracklets-scale",
+      {"tracklet-regression-particle", layers::kTrackletsByScale,
        tracklet_scouts(paper_method(PaperFilter::particle))},
-      {"tracklet-regression-unaveraged", "observations", tracklet_scouts(unaveraged_method())},
-      {"inverse-scale", "tracklets-inverse-scale", tracklet_scouts(inverse_scale_method())},
+      {"tracklet-regression-unaveraged", layers::kObservations,
+       tracklet_scouts(unaveraged_method())},
+      {"inverse-scale", layers::kTrackletsByInverseScale, tracklet_scouts(inverse_scale_method())},
       landmark_method(),
   };
   return all;

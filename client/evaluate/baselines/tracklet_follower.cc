@@ -16,8 +16,8 @@ class TrackletFollower : public Follower {
  public:
   TrackletFollower(const SegmentLayer& layer, const QueryCamera& camera,
                    const ScoutSettings& settings, const TrackletMethod& method)
-      : feature_(layer.parameters->feature),
-        scale_ratio_(layer.parameters->map_focal_px /
+      : feature_(layer.feature()),
+        scale_ratio_(layer.parameters().focal_px() /
                      std::sqrt(camera.focal_x_px * camera.focal_y_px)),
         image_width_px_(camera.width_px),
         min_start_support_(settings.min_start_support),
@@ -129,7 +129,7 @@ class TrackletScout : public Scout {
 MakeScout tracklet_scouts(const TrackletMethod& method) {
   return [method](const SegmentLayer& layer, const QueryCamera& camera,
                   const ScoutSettings& settings) -> Result<std::unique_ptr<Scout>> {
-    const LayerItems items = layer.parameters->items;
+    const LayerItems items = layer.parameters().items;
     if (items != LayerItems::tracklets && items != LayerItems::observations) {
       return unusable_items(layer);
     }

@@ -134,8 +134,8 @@ class WarpFollower : public Follower {
       return image_distance(frame.frame().image(), *map_frame.frame().image);
     }
     const double query_focal_px = std::sqrt(camera_.focal_x_px * camera_.focal_y_px);
-    const auto change = scale_change(frame.features(layer_.parameters->feature),
-                                     layer_.parameters->map_focal_px / query_focal_px,
+    const auto change = scale_change(frame.features(layer_.feature()),
+                                     layer_.parameters().focal_px() / query_focal_px,
                                      camera_.width_px, map_frame, method_.scale);
     if (!change) return std::nullopt;
     matches = change->matches;
@@ -203,7 +203,7 @@ class WarpScout : public Scout {
 MakeScout warp_scouts(const WarpMethod& method) {
   return [method](const SegmentLayer& layer, const QueryCamera& camera,
                   const ScoutSettings& settings) -> Result<std::unique_ptr<Scout>> {
-    if (layer.parameters->items != LayerItems::frames) return unusable_items(layer);
+    if (layer.parameters().items != LayerItems::frames) return unusable_items(layer);
     return std::unique_ptr<Scout>(std::make_unique<WarpScout>(layer, camera, settings, method));
   };
 }

@@ -7,6 +7,7 @@
 #include "client/evaluate/report/plot/chart.h"
 #include "client/evaluate/report/plot/text.h"
 #include "client/evaluate/report/report_numbers.h"
+#include "client/evaluate/statistics.h"
 
 namespace milepost {
 namespace {

@@ -2,34 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 
 #include "client/evaluate/report/plot/text.h"
+#include "client/evaluate/statistics.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHeadroom = 1.05;  // so that the greatest value is not half outside the plot
 
 }  // namespace
-
-std::vector<double> finite_only(const std::vector<double>& values) {
-  std::vector<double> finite;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
-               [](double value) { return std::isfinite(value); });
-  return finite;
-}
-
-double quantile(const std::vector<double>& ascending, double share) {
-  if (ascending.empty()) return kNaN;
-  const double place = share * static_cast<double>(ascending.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, ascending.size() - 1);
-  return ascending[below] +
-         (place - static_cast<double>(below)) * (ascending[above] - ascending[below]);
-}
 
 double robust_reach(std::vector<double> magnitudes) {
   magnitudes = finite_only(magnitudes);

@@ -6,13 +6,6 @@
 
 namespace milepost {
 
-// The finite ones, in their order.
-std::vector<double> finite_only(const std::vector<double>& values);
-
-// The value below which that share of `ascending` lies, between neighbours in proportion.
-// NaN without values.
-double quantile(const std::vector<double>& ascending, double share);
-
 // How far a scale must reach for values that are no outliers: the greatest, but at most 2.5 times
 // the 90th percentile, which is four sigmas of a normal distribution; and a little headroom. 0
 // without a finite value.

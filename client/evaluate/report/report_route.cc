@@ -8,6 +8,7 @@
 #include "client/evaluate/report/plot/text.h"
 #include "client/evaluate/report/report_figures.h"
 #include "client/evaluate/report/report_numbers.h"
+#include "client/evaluate/statistics.h"
 
 namespace milepost {
 namespace {

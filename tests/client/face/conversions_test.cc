@@ -140,5 +140,29 @@ TEST(VehiclePose, HeadingsUncertaintyMovesTheReferencePoint) {
   EXPECT_NEAR(pose.covariance[21], 1, 1e-6);
 }
 
+// Due south the heading turns over from -180 to 180 degrees; what it does not know of it does not.
+TEST(VehiclePose, DueSouthIsADirectionLikeOthers) {
+  CameraPlacement camera = camera_looking(180, 0, 0);
+  camera.covariance[21] = 0.01;
+  const Pose pose = vehicle_pose_of(camera, {});
+  EXPECT_NEAR(pose.covariance[21], 0.01, 1e-6);
+  EXPECT_NEAR(pose.covariance[28], 0, 1e-6);
+}
+
+TEST(Deadline, OfForEverCanBeCounted) {
+  Patience patience;
+  patience.longest = std::chrono::milliseconds::max();
+  EXPECT_GT(deadline_of(patience), std::chrono::steady_clock::now() + std::chrono::hours(24));
+}
+
+TEST(OpenSource, TimeOutsAreAboveNothingAndNotForEver) {
+  ServerSource server;
+  server.url = "http://127.0.0.1:1";
+  server.stall_timeout_s = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(open_source(server).error().code, ErrorCode::invalid_input);
+  server.stall_timeout_s = 0;
+  EXPECT_EQ(open_source(server).error().code, ErrorCode::invalid_input);
+}
+
 }  // namespace
 }  // namespace milepost::vehicle

@@ -97,6 +97,10 @@ TEST_F(PublicFace, WaitingForTheMapHasADeadlineAndCanBeCancelled) {
   Patience cancelled;
   cancelled.cancelled = [] { return true; };
   EXPECT_EQ(localizer->wait_for_map(10, cancelled).error().code, ErrorCode::cancelled);
+  Patience later;  // while it waits
+  const auto began = std::chrono::steady_clock::now();
+  later.cancelled = [&] { return std::chrono::steady_clock::now() > began; };
+  EXPECT_EQ(localizer->wait_for_map(10, later).error().code, ErrorCode::cancelled);
   EXPECT_TRUE(localizer->wait_for_map(10).ok());  // it was asked for in vain
   EXPECT_TRUE(localizer->map_ahead().failure.has_value());
 }

@@ -59,6 +59,7 @@ TEST(MapAhead, OfAPlaceThatIsNotKnownNothingIsHeld) {
 TEST(MapAhead, ASegmentWithoutDocumentsIsMissingAsAWhole) {
   Wants wants;
   wants.tiles = {{kRoad, {30, 99}, 0}};
+  wants.around = Surroundings{{49, 8.4, 0}, 50};
   HeldMap held;
   held.around_failure = milepost::Error{milepost::ErrorCode::unavailable, "server", "is away", ""};
   const MapAhead ahead = map_ahead_of(held, wants, std::nullopt);

@@ -71,6 +71,10 @@ TEST_F(FileSourceTest, FindsTheSegmentsNearby) {
   EXPECT_EQ(source_->segments_near({49.00045, 8.4001, 0}, 10)->size(), 1U);
   EXPECT_EQ(source_->segments_near({10, 8.4001, 0}, 10)->size(), 0U);
   EXPECT_EQ(source_->segments_near({100, 8.4, 0}, 10).error().code, ErrorCode::invalid_input);
+  // As a server does.
+  EXPECT_EQ(source_->segments_near({49, 8.4, 0}, 0).error().code, ErrorCode::invalid_input);
+  EXPECT_EQ(source_->segments_near({49, 8.4, 0}, 10001).error().code, ErrorCode::invalid_input);
+  EXPECT_TRUE(source_->segments_near({49, 8.4, 0}, 10000).ok());
 }
 
 TEST_F(FileSourceTest, DescribesTheMapAndItsSegments) {

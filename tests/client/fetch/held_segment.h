@@ -26,9 +26,9 @@ inline std::shared_ptr<const SegmentLayer> layer_of(const SegmentKey& key, const
     entry.along = tile.along;
     index.push_back(entry);
   }
-  return std::make_shared<const SegmentLayer>(
-      SegmentLayer{key, "layer", std::make_shared<const LayerParameters>(std::move(parameters)),
-                   line, std::move(index)});
+  return std::make_shared<const SegmentLayer>(SegmentLayer{
+      key, "layer", std::make_shared<const BuildLayer>(BuildLayer{{}, std::move(parameters)}), line,
+      std::move(index)});
 }
 
 inline HeldMap held_map(std::shared_ptr<const SegmentLayer> layer,

@@ -159,7 +159,7 @@ Attempt MemorySource::fetch_tiles(const MapVersion& version, const std::string& 
   return {};
 }
 
-std::shared_ptr<MapSource> MemorySource::until(Stopped stopped) {
+std::shared_ptr<MapSource> MemorySource::until(Stopped stopped, Asking /*asking*/) {
   const std::lock_guard lock(mutex_);
   stopped_.push_back(std::move(stopped));
   return shared_from_this();

@@ -63,7 +63,7 @@ class MemorySource : public MapSource, public std::enable_shared_from_this<Memor
   Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
                       const std::string& layer, const std::vector<TileEntry>& tiles,
                       const TileSink& take) override;
-  std::shared_ptr<MapSource> until(Stopped stopped) override;
+  std::shared_ptr<MapSource> until(Stopped stopped, Asking asking) override;
 
  private:
   struct Road {

@@ -91,16 +91,16 @@ TEST_F(StateOfAProvider, AsksAroundThenForDocumentsThenForTiles) {
   auto task = state_.next_fetch(now_);
   ASSERT_TRUE(task && std::holds_alternative<AskAround>(*task));
   EXPECT_EQ(std::get<AskAround>(*task).asked.radius_m, 50 + settings().surroundings_margin_m);
-  EXPECT_FALSE(state_.is_settled(now_));
-  state_.take(std::get<AskAround>(*task), {{kTown, "road", 100, 3, kLengthM}});
+  EXPECT_FALSE(state_.is_settled());
+  state_.take(std::get<AskAround>(*task), {{kTown, "road", 100, 3, kLengthM}}, now_);
   task = state_.next_fetch(now_);
   ASSERT_TRUE(task && std::holds_alternative<ReadDocuments>(*task));
   EXPECT_EQ(std::get<ReadDocuments>(*task).key, kRoad);
-  EXPECT_FALSE(state_.is_settled(now_));
+  EXPECT_FALSE(state_.is_settled());
   state_.take(road());
-  EXPECT_TRUE(state_.is_settled(now_));  // no tile is wanted
+  EXPECT_TRUE(state_.is_settled());  // no tile is wanted
   want({{{90, 130}, 0}});
-  EXPECT_FALSE(state_.is_settled(now_));
+  EXPECT_FALSE(state_.is_settled());
   find_nothing_stored();
   EXPECT_EQ(next_run(), (Indices{4, 5, 6}));
 }
@@ -108,14 +108,14 @@ TEST_F(StateOfAProvider, AsksAroundThenForDocumentsThenForTiles) {
 TEST_F(StateOfAProvider, KnowsTheSurroundingsAsFarAsItAsked) {
   around_ = Surroundings{at(100), 50};
   want({});
-  state_.take(std::get<AskAround>(*state_.next_fetch(now_)), {});
+  state_.take(std::get<AskAround>(*state_.next_fetch(now_)), {}, now_);
   around_ = Surroundings{at(199), 50};
   want({});
   EXPECT_FALSE(state_.next_fetch(now_));
   around_ = Surroundings{at(202), 50};
   want({});
   ASSERT_TRUE(state_.next_fetch(now_));
-  EXPECT_FALSE(state_.is_settled(now_));
+  EXPECT_FALSE(state_.is_settled());
 }
 
 TEST_F(StateOfAProvider, WhatIsStoredIsReadAndNotFetched) {
@@ -183,7 +183,7 @@ TEST_F(StateOfAProvider, ARefusedTileStopsNoOther) {
   EXPECT_EQ(held.tiles.size(), 7U);
   ASSERT_TRUE(held.missing.contains(5));
   EXPECT_EQ(held.missing.size(), 1U);
-  EXPECT_TRUE(state_.is_settled(now_));
+  EXPECT_TRUE(state_.is_settled());
   // It is asked for again, later each time, and what is wanted beside it at once.
   now_ += seconds(20);
   EXPECT_EQ(next_run(), Indices{5});
@@ -211,10 +211,10 @@ TEST_F(StateOfAProvider, ANetworkThatIsAwayIsNotWaitedFor) {
   want({{{0, 159}, 0}});
   find_nothing_stored();
   fail_next(seconds(10));  // a request that stalls
-  EXPECT_TRUE(state_.is_settled(now_));
+  EXPECT_TRUE(state_.is_settled());
   want({{{100, 259}, 0}});  // tiles that were never asked for
   find_nothing_stored();
-  EXPECT_TRUE(state_.is_settled(now_));
+  EXPECT_TRUE(state_.is_settled());
   EXPECT_EQ(next_run(), Indices{});
   now_ += seconds(2);
   const FetchTask task = *state_.next_fetch(now_);
@@ -222,13 +222,13 @@ TEST_F(StateOfAProvider, ANetworkThatIsAwayIsNotWaitedFor) {
     state_.take(kRoad, entry.index, a_tile());
   }
   state_.succeeded(task);
-  EXPECT_FALSE(state_.is_settled(now_));  // it is back, and the rest is waited for
+  EXPECT_FALSE(state_.is_settled());  // it is back, and the rest is waited for
 }
 
 TEST_F(StateOfAProvider, DocumentsThatFailAreAskedForAgain) {
   want({{{0, 10}, 0}});
   fail_next(milliseconds(10), ErrorCode::corrupt);
-  EXPECT_TRUE(state_.is_settled(now_));
+  EXPECT_TRUE(state_.is_settled());
   ASSERT_TRUE(state_.held()->find(kRoad)->failure);
   EXPECT_FALSE(state_.next_fetch(now_));
   now_ = *state_.next_due(now_);
@@ -240,7 +240,8 @@ TEST_F(StateOfAProvider, DocumentsThatFailAreAskedForAgain) {
 TEST_F(StateOfAProvider, ABuildThatIsGoneIsGivenUpAndLookedUpAnew) {
   around_ = Surroundings{at(100), 50};
   want({});
-  state_.take(std::get<AskAround>(*state_.next_fetch(now_)), {{kTown, "road", 100, 3, kLengthM}});
+  state_.take(std::get<AskAround>(*state_.next_fetch(now_)), {{kTown, "road", 100, 3, kLengthM}},
+              now_);
   state_.take(road());
   want({{{90, 95}, 0}});
   find_nothing_stored();
@@ -251,7 +252,7 @@ TEST_F(StateOfAProvider, ABuildThatIsGoneIsGivenUpAndLookedUpAnew) {
   const auto task = state_.next_fetch(now_);
   ASSERT_TRUE(task && std::holds_alternative<AskAround>(*task));
   const MapVersion next = {"town", "next"};
-  state_.take(std::get<AskAround>(*task), {{next, "road", 100, 3, kLengthM}});
+  state_.take(std::get<AskAround>(*task), {{next, "road", 100, 3, kLengthM}}, now_);
   const auto documents = state_.next_fetch(now_);
   ASSERT_TRUE(documents && std::holds_alternative<ReadDocuments>(*documents));
   EXPECT_EQ(std::get<ReadDocuments>(*documents).key.version, next);
@@ -262,7 +263,7 @@ TEST_F(StateOfAProvider, WhatIsUnusableIsMissingAndSettled) {
   want({{{50, 55}, 0}});
   state_.is_unusable(kRoad, 2, Error{ErrorCode::corrupt, "tile 2", "is damaged", ""}, now_);
   EXPECT_EQ(state_.held()->find(kRoad)->missing.at(2).code, ErrorCode::corrupt);
-  EXPECT_TRUE(state_.is_settled(now_));
+  EXPECT_TRUE(state_.is_settled());
   EXPECT_FALSE(state_.next_stored());
 }
 
@@ -273,6 +274,109 @@ TEST_F(StateOfAProvider, WhatIsHeldIsTheSameObjectUntilItChanges) {
   EXPECT_EQ(state_.held(), before);
   state_.take(kRoad, 0, a_tile());
   EXPECT_NE(state_.held(), before);
+}
+
+// A server that has not heard of it yet names the build that is gone: it is asked again, later.
+TEST_F(StateOfAProvider, ABuildThatIsGoneIsNotTakenUpAgain) {
+  around_ = Surroundings{at(100), 50};
+  want({});
+  const auto ask = [&] {
+    const auto task = state_.next_fetch(now_);
+    ASSERT_TRUE(task && std::holds_alternative<AskAround>(*task));
+    state_.take(std::get<AskAround>(*task), {{kTown, "road", 100, 3, kLengthM}}, now_);
+  };
+  ask();
+  state_.take(road());
+  want({{{90, 95}, 0}});
+  find_nothing_stored();
+  fail_next(milliseconds(10), ErrorCode::gone);
+  ask();
+  want({{{90, 95}, 0}});
+  EXPECT_FALSE(state_.next_fetch(now_));  // not at once
+  EXPECT_TRUE(state_.is_settled());
+  EXPECT_EQ(state_.held()->find(kRoad)->failure->code, ErrorCode::gone);
+  now_ = *state_.next_due(now_);
+  ask();
+}
+
+// Of more segments than lines are read of, those that may be the nearest by now.
+TEST_F(StateOfAProvider, ReadsTheLinesOfTheNearestSegments) {
+  ProviderSettings few = settings();
+  few.max_segments = 2;
+  few.surroundings_margin_m = 1000;
+  state_ = ProviderState(few);
+  around_ = Surroundings{at(0), 100};
+  want({});
+  std::vector<NearbySegment> told;
+  for (const double distance_m : {10.0, 50.0, 90.0, 600.0, 620.0, 900.0}) {
+    told.push_back({kTown, "s" + std::to_string(told.size()), 0, distance_m, kLengthM});
+  }
+  state_.take(std::get<AskAround>(*state_.next_fetch(now_)), told, now_);
+  const auto next_document = [&]() -> std::string {
+    const auto task = state_.next_fetch(now_);
+    const auto* documents = task ? std::get_if<ReadDocuments>(&*task) : nullptr;
+    return documents ? documents->key.segment : "none";
+  };
+  EXPECT_EQ(next_document(), "s0");
+  state_.take(road({kTown, "s0"}));
+  EXPECT_EQ(next_document(), "s1");
+  state_.take(road({kTown, "s1"}));
+  EXPECT_EQ(next_document(), "none");
+  around_ = Surroundings{at(615), 100};  // still within what was told
+  want({});
+  EXPECT_FALSE(state_.is_settled());
+  EXPECT_EQ(next_document(), "s4");
+}
+
+TEST_F(StateOfAProvider, WhatIsWantedComesBeforeTheLinesOfNeighbours) {
+  around_ = Surroundings{at(100), 50};
+  want({});
+  state_.take(std::get<AskAround>(*state_.next_fetch(now_)),
+              {{kTown, "a", 100, 3, kLengthM}, {kTown, "road", 100, 5, kLengthM}}, now_);
+  want({{{90, 95}, 0}});
+  EXPECT_EQ(std::get<ReadDocuments>(*state_.next_fetch(now_)).key, kRoad);
+  state_.take(road());
+  find_nothing_stored();
+  EXPECT_EQ(next_run(), Indices{4});
+  state_.take(kRoad, 4, a_tile());
+  EXPECT_EQ(std::get<ReadDocuments>(*state_.next_fetch(now_)).key.segment, "a");
+}
+
+// What failed long ago says nothing of now.
+TEST_F(StateOfAProvider, ANetworkThatWasNotAskedSinceIsNotAway) {
+  open();
+  want({{{0, 39}, 0}});
+  find_nothing_stored();
+  fail_next();  // of two tiles, at once
+  now_ += seconds(60);
+  want({{{200, 239}, 0}});
+  find_nothing_stored();
+  EXPECT_FALSE(state_.is_settled());
+}
+
+TEST_F(StateOfAProvider, ATileThatCannotBeUsedIsNotFetchedAgain) {
+  open();
+  want({{{50, 55}, 0}});
+  find_nothing_stored();
+  state_.is_unusable(kRoad, 2, Error{ErrorCode::corrupt, "tile 2", "no tile", ""}, now_);
+  now_ += seconds(3600);
+  EXPECT_EQ(next_run(), Indices{});
+  // Nor is one that was refused forgotten because it is not wanted for a moment.
+  want({{{90, 95}, 0}});
+  find_nothing_stored();
+  fail_next();
+  want({{{110, 115}, 0}});
+  want({{{90, 95}, 0}});
+  EXPECT_EQ(next_run(), Indices{});
+}
+
+TEST_F(StateOfAProvider, NothingIsFetchedWhileSomeMayBeStored) {
+  open();
+  want({{{50, 90}, 0}});
+  state_.is_not_stored(kRoad, 2);
+  EXPECT_EQ(next_run(), Indices{});
+  find_nothing_stored();
+  EXPECT_EQ(next_run(), (Indices{2, 3, 4}));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ Result<std::shared_ptr<const SegmentLayer>> read_layer(const nlohmann::json& par
   const MapVersion town = {"town", "build"};
   const auto source = std::make_shared<testing::MemorySource>(town, "tracklets", parameters.dump());
   source->add({"road", 111, {{49, 8.4, 110}, {49.001, 8.4, 110}}, {}}, {});
-  const auto read = read_layer_parameters(*source, town, layer);
+  const auto read = read_build_layer(*source, town, layer);
   if (!read) return read.error();
   return read_segment_layer(*source, {town, "road"}, layer, *read);
 }
@@ -49,17 +49,17 @@ std::string message(const nlohmann::json& parameters) {
 TEST(SegmentLayer, OfLandmarksHasACodebook) {
   const auto layer = read_layer(sound_parameters());
   ASSERT_TRUE(layer.ok()) << layer.error().line();
-  EXPECT_EQ((*layer)->parameters->items, LayerItems::landmarks);
-  EXPECT_EQ((*layer)->parameters->codebook, codebook());
-  EXPECT_EQ((*layer)->parameters->map_focal_px, 600);
+  EXPECT_EQ((*layer)->parameters().items, LayerItems::landmarks);
+  EXPECT_EQ((*layer)->parameters().codebook, codebook());
+  EXPECT_EQ((*layer)->parameters().focal_px(), 600);
   EXPECT_NEAR((*layer)->line.length_m(), 111.2, 0.1);
 }
 
 TEST(SegmentLayer, OfOtherItemsHasNone) {
   const auto layer = read_layer({{"items", "tracklets"}, {"focal_px", {400, 400}}});
   ASSERT_TRUE(layer.ok()) << layer.error().line();
-  EXPECT_EQ((*layer)->parameters->items, LayerItems::tracklets);
-  EXPECT_FALSE((*layer)->parameters->codebook);
+  EXPECT_EQ((*layer)->parameters().items, LayerItems::tracklets);
+  EXPECT_FALSE((*layer)->parameters().codebook);
 }
 
 TEST(SegmentLayer, OfLandmarksWithoutASoundCodebookIsCorrupt) {

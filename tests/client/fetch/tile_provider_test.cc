@@ -48,7 +48,7 @@ Wants wants_of(const AlongRange& range) {
 void settle(const TileProvider& provider) {
   const SteadyTime deadline = steady_clock::now() + seconds(20);
   while (!provider.is_settled() && steady_clock::now() < deadline) {
-    provider.wait_for_change(deadline);
+    provider.wait_for_change(provider.held(), deadline);
   }
   EXPECT_TRUE(provider.is_settled());
 }
@@ -144,7 +144,7 @@ TEST(TileProvider, AWaitEndsAtItsDeadline) {
   map->block();
   TileProvider provider(map, "wisurf", soon_again());
   provider.want(wants_of({0, 100}));
-  provider.wait_for_change(steady_clock::now() + milliseconds(20));
+  provider.wait_for_change(provider.held(), steady_clock::now() + milliseconds(20));
   EXPECT_FALSE(provider.is_settled());
 }
 

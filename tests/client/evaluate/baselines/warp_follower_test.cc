@@ -35,7 +35,8 @@ Road straight_road(LayerItems items = LayerItems::frames) {
   end.latitude_deg += kLengthM / 111229;  // metres in a degree of latitude there
   LayerParameters parameters;
   parameters.items = items;
-  parameters.map_focal_px = 400;
+  parameters.focal_x_px = 400;
+  parameters.focal_y_px = 400;
   const std::vector<testing::IndexedTile> tiles = {{{0, kLengthM}, tile}};
   Road road;
   road.layer = testing::layer_of({{"map", "build"}, "road"},

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/response.h"
+#include "server/message/response.h"
 
 namespace milepost::server {
 

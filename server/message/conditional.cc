@@ -1,4 +1,4 @@
-#include "server/conditional.h"
+#include "server/message/conditional.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "server/response.h"
+#include "server/message/response.h"
 
 #include <algorithm>
 

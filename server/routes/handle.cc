@@ -1,12 +1,12 @@
-#include "server/handle.h"
+#include "server/routes/handle.h"
 
 #include <array>
 #include <optional>
 #include <string>
 
-#include "server/conditional.h"
+#include "server/message/conditional.h"
+#include "server/message/target.h"
 #include "server/routes/routes.h"
-#include "server/target.h"
 
 namespace milepost::server {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "server/catalog/catalog.h"
-#include "server/request.h"
-#include "server/response.h"
+#include "server/message/request.h"
+#include "server/message/response.h"
 
 namespace milepost::server {
 

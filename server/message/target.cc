@@ -1,4 +1,4 @@
-#include "server/target.h"
+#include "server/message/target.h"
 
 #include <algorithm>
 #include <charconv>

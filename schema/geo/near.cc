@@ -1,0 +1,53 @@
+#include "schema/geo/near.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace milepost {
+namespace {
+
+// A degree of latitude is never shorter on WGS84 than here; nor is a degree of longitude, times
+// the cosine of the latitude.
+constexpr double kMetresPerDegree = 110500;
+
+// How far `longitude_deg` lies outside [west, east], going round the shorter way.
+double degrees_outside(double longitude_deg, double west_deg, double east_deg) {
+  if (west_deg <= longitude_deg && longitude_deg <= east_deg) return 0;
+  return std::min(wrapped_360(west_deg - longitude_deg), wrapped_360(longitude_deg - east_deg));
+}
+
+}  // namespace
+
+bool is_near_radius(double radius_m) { return radius_m > 0 && radius_m <= kMaxNearRadiusM; }
+
+Bounds bounds_around(const std::vector<GeoPoint>& points) {
+  const auto at = [](const GeoPoint& point) {
+    return Bounds{point.longitude_deg, point.latitude_deg, point.longitude_deg, point.latitude_deg};
+  };
+  Bounds box = at(points.front());
+  for (const GeoPoint& point : points) box = box.joined(at(point));
+  return box;
+}
+
+bool may_be_within(const Bounds& box, const GeoPoint& position, double radius_m) {
+  const double reach_deg = radius_m / kMetresPerDegree;
+  const double latitude_deg = position.latitude_deg;
+  if (latitude_deg < box.south_deg - reach_deg || latitude_deg > box.north_deg + reach_deg) {
+    return false;
+  }
+  // Degrees of longitude are shortest at the end of the reach that is nearer to a pole.
+  const double highest_deg = std::abs(latitude_deg) + reach_deg;
+  if (highest_deg >= 90) return true;
+  const double shrink = std::cos(highest_deg * kRadPerDeg);
+  return degrees_outside(position.longitude_deg, box.west_deg, box.east_deg) <= reach_deg / shrink;
+}
+
+std::optional<LineProjection> BoxedLine::nearest_within(const GeoPoint& position,
+                                                        double radius_m) const {
+  if (!may_be_within(box, position, radius_m)) return std::nullopt;
+  const LineProjection nearest = line.project(position);
+  if (nearest.distance_m > radius_m) return std::nullopt;
+  return nearest;
+}
+
+}  // namespace milepost
