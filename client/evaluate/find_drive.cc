@@ -16,8 +16,8 @@ constexpr std::chrono::seconds kLongestWait(20);  // for the map, of one frame
 // The route localizer, which hears of the finder what it else hears of a receiver.
 class Successor {
  public:
-  Successor(std::shared_ptr<MapSource> source, const Camera& camera)
-      : localizer_(std::move(source), query_camera_of(camera), LocalizerSettings()) {}
+  Successor(const std::shared_ptr<MapSource>& source, const Camera& camera)
+      : localizer_(source, query_camera_of(camera), LocalizerSettings()) {}
 
   void observe(const Odometry& wheels) { localizer_.observe(wheels); }
 

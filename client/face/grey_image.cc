@@ -51,7 +51,8 @@ Result<cv::Mat> grey_image(const ImageView& image, const Camera& camera) {
   }
   // OpenCV has no views of what may not be written to; it only reads this one.
   const cv::Mat pixels(image.height_px, image.width_px, CV_8UC(layout.channels),
-                       const_cast<std::uint8_t*>(image.data),
+                       const_cast<std::uint8_t*>(  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+                           image.data),
                        static_cast<std::size_t>(image.stride_bytes));
   if (layout.to_grey < 0) return pixels;
   cv::Mat grey;

@@ -53,8 +53,9 @@ const char* name_of(FixStatus status) {
 }
 
 struct Localizer::Impl {
-  Impl(std::shared_ptr<MapSource> source, Camera given, const milepost::LocalizerSettings& settings)
-      : camera(std::move(given)), localizer(std::move(source), query_camera_of(camera), settings) {}
+  Impl(const std::shared_ptr<MapSource>& source, Camera given,
+       const milepost::LocalizerSettings& settings)
+      : camera(std::move(given)), localizer(source, query_camera_of(camera), settings) {}
 
   const FeatureSet& features_of(const cv::Mat& grey, const FeatureParameters& wanted) {
     if (!extractor || !(wanted == parameters)) {
@@ -103,11 +104,11 @@ Result<Localizer> Localizer::open(const Source& source, const Camera& camera,
   if (!(settings.ahead_m >= 0 && settings.ahead_m <= 5000)) {
     return wrong("settings", "ahead_m is not from 0 to 5000", "give metres of map ahead");
   }
-  Result<std::shared_ptr<MapSource>> opened = open_source(source);
+  const Result<std::shared_ptr<MapSource>> opened = open_source(source);
   if (!opened) return opened.error();
   milepost::LocalizerSettings internal;
   internal.prefetch_m = settings.ahead_m;
-  return Localizer(std::make_unique<Impl>(std::move(*opened), camera, internal));
+  return Localizer(std::make_unique<Impl>(*opened, camera, internal));
 }
 
 Localizer::Localizer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

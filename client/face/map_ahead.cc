@@ -59,8 +59,11 @@ MapAhead map_ahead_of(const HeldMap& held, const Wants& wants,
     return std::tie(range.map, range.segment, range.from_m, range.to_m);
   };
   std::ranges::sort(ahead.missing, {}, order);
-  const auto doubles = std::ranges::unique(ahead.missing, {}, order);
-  ahead.missing.erase(doubles.begin(), doubles.end());
+  const auto is_same = [&](const MissingRange& a, const MissingRange& b) {
+    return order(a) == order(b);
+  };
+  ahead.missing.erase(std::unique(ahead.missing.begin(), ahead.missing.end(), is_same),
+                      ahead.missing.end());
   const HeldSegment* segment = from ? held.find(from->key) : nullptr;
   if (segment != nullptr && segment->layer) ahead.held_m = held_from_m(*segment, from->along_m);
   return ahead;

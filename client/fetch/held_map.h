@@ -37,7 +37,7 @@ class HeldMap {
 
   // The segments that pass within a distance of a position, nearest first; nothing while that is
   // not known as far as there.
-  std::optional<std::vector<NearbySegment>> segments_near(const Surroundings& around) const;
+  std::optional<std::vector<NearbySegment>> segments_near(const Surroundings& asked) const;
 
   std::map<SegmentKey, std::shared_ptr<const HeldSegment>> segments;
   // All segments within the surroundings, as they were told.

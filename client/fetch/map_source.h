@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "client/fetch/retry.h"
@@ -24,7 +25,10 @@ struct MapVersion {
   std::string map;
   std::string build;
 
-  friend auto operator<=>(const MapVersion&, const MapVersion&) = default;
+  friend bool operator==(const MapVersion&, const MapVersion&) = default;
+  friend bool operator<(const MapVersion& a, const MapVersion& b) {
+    return std::tie(a.map, a.build) < std::tie(b.map, b.build);
+  }
 };
 
 struct MapDescription {

@@ -46,7 +46,9 @@ void ProviderState::await_what_is_wanted() {
 
 void ProviderState::let_go() {
   bool changed = false;
-  for (auto& [key, segment] : segments_) {
+  for (auto& entry_of_segment : segments_) {
+    const SegmentKey& key = entry_of_segment.first;
+    Segment& segment = entry_of_segment.second;
     if (!segment.held.layer) continue;
     std::vector<AlongRange> kept;
     for (const Want& want : wants_.tiles) {

@@ -15,7 +15,7 @@ Result<std::shared_ptr<const BuildLayer>> read_build_layer(MapSource& source,
                  "it has no layer '" + layer + "', which the method needs",
                  "build it with milepost-mapper build --lab, or use the method milepost"};
   }
-  Result<LayerParameters> parameters = layer_parameters_from_json(found->second);
+  const Result<LayerParameters> parameters = layer_parameters_from_json(found->second);
   if (!parameters) {
     Error error = parameters.error();
     error.where = "map '" + version.map + "', layer '" + layer + "'";
@@ -23,7 +23,7 @@ Result<std::shared_ptr<const BuildLayer>> read_build_layer(MapSource& source,
   }
   const Result<FeatureParameters> feature = feature_parameters_from_json(map->feature_json);
   if (!feature) return feature.error();
-  return std::make_shared<const BuildLayer>(BuildLayer{*feature, std::move(*parameters)});
+  return std::make_shared<const BuildLayer>(BuildLayer{*feature, *parameters});
 }
 
 Result<std::shared_ptr<const SegmentLayer>> read_segment_layer(

@@ -59,9 +59,9 @@ struct TileProvider::Impl {
   std::thread fetcher;
 };
 
-TileProvider::TileProvider(std::shared_ptr<MapSource> source, std::string layer,
+TileProvider::TileProvider(const std::shared_ptr<MapSource>& source, std::string layer,
                            const ProviderSettings& settings)
-    : impl_(std::make_unique<Impl>(std::move(source), std::move(layer), settings)) {}
+    : impl_(std::make_unique<Impl>(source, std::move(layer), settings)) {}
 
 TileProvider::~TileProvider() = default;
 

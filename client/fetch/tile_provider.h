@@ -17,7 +17,7 @@ namespace milepost {
 class TileProvider {
  public:
   // Of one layer of the source's maps.
-  TileProvider(std::shared_ptr<MapSource> source, std::string layer,
+  TileProvider(const std::shared_ptr<MapSource>& source, std::string layer,
                const ProviderSettings& settings = {});
   // Ends within a second, whatever the source does.
   ~TileProvider();

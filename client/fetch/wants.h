@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "client/fetch/map_source.h"
@@ -13,7 +14,10 @@ struct SegmentKey {
   MapVersion version;
   std::string segment;
 
-  friend auto operator<=>(const SegmentKey&, const SegmentKey&) = default;
+  friend bool operator==(const SegmentKey&, const SegmentKey&) = default;
+  friend bool operator<(const SegmentKey& a, const SegmentKey& b) {
+    return std::tie(a.version, a.segment) < std::tie(b.version, b.segment);
+  }
 };
 
 // The tiles of one segment that meet a range.

@@ -53,10 +53,9 @@ struct Scouted {
 }  // namespace
 
 struct Localizer::Impl {
-  Impl(std::shared_ptr<MapSource> source, const QueryCamera& query, const LocalizerSettings& given)
-      : camera(query),
-        settings(given),
-        provider(std::move(source), given.method.layer, given.provider) {}
+  Impl(const std::shared_ptr<MapSource>& source, const QueryCamera& query,
+       const LocalizerSettings& given)
+      : camera(query), settings(given), provider(source, given.method.layer, given.provider) {}
 
   QueryCamera camera;
   LocalizerSettings settings;
@@ -112,9 +111,9 @@ bool leads_ahead(const RouteLine& line, double along_m, const CoarsePosition& ve
 
 }  // namespace
 
-Localizer::Localizer(std::shared_ptr<MapSource> source, const QueryCamera& camera,
+Localizer::Localizer(const std::shared_ptr<MapSource>& source, const QueryCamera& camera,
                      const LocalizerSettings& settings)
-    : impl_(std::make_unique<Impl>(std::move(source), camera, settings)) {}
+    : impl_(std::make_unique<Impl>(source, camera, settings)) {}
 
 Localizer::~Localizer() = default;
 Localizer::Localizer(Localizer&&) noexcept = default;

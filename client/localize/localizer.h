@@ -38,7 +38,7 @@ struct LocalizerSettings {
 // a frame takes what has arrived, and waits for nothing.
 class Localizer {
  public:
-  Localizer(std::shared_ptr<MapSource> source, const QueryCamera& camera,
+  Localizer(const std::shared_ptr<MapSource>& source, const QueryCamera& camera,
             const LocalizerSettings& settings);
   ~Localizer();
   Localizer(Localizer&&) noexcept;

@@ -1,7 +1,5 @@
 #include "schema/tile/layer_parameters.h"
 
-#include <utility>
-
 #include "schema/base/json.h"
 
 namespace milepost {
@@ -45,10 +43,10 @@ Result<LayerParameters> layer_parameters_from_json(const std::string& text) {
   const double focal_px = parameters.focal_px();
   if (!(focal_px > 0 && std::isfinite(focal_px))) return corrupt("focal_px is out of range");
   if (*items == LayerItems::landmarks) {
-    Result<Codebook> codebook =
+    const Result<Codebook> codebook =
         Codebook::from_json(json.value("codebook", nlohmann::json()).dump());
     if (!codebook) return corrupt("its codebook: " + codebook.error().what);
-    parameters.codebook = std::move(*codebook);
+    parameters.codebook = *codebook;
   }
   return parameters;
 }
