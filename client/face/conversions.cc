@@ -31,10 +31,6 @@ ErrorCode code_of(milepost::ErrorCode code) {
   return ErrorCode::cancelled;
 }
 
-Error wrong(const std::string& what, const std::string& mend) {
-  return {ErrorCode::invalid_input, "camera", what, mend};
-}
-
 constexpr double kLongestS = 3600;  // of a time-out
 
 bool is_above_zero(double value) { return std::isfinite(value) && value > 0; }
@@ -84,19 +80,32 @@ std::chrono::steady_clock::time_point deadline_of(const Patience& patience) {
          std::min(patience.longest, std::chrono::milliseconds(kYear));
 }
 
+Error wrong(const std::string& where, const std::string& what, const std::string& mend) {
+  return {ErrorCode::invalid_input, where, what, mend};
+}
+
+Status check_reading(const OdometryReading& reading) {
+  const bool is_sound = std::isfinite(reading.timestamp_s) && std::isfinite(reading.speed_mps) &&
+                        std::isfinite(reading.yaw_rate_dps);
+  if (!is_sound) return wrong("odometry reading", "a value is not finite", "leave it out");
+  return {};
+}
+
 Status check_camera(const Camera& camera) {
   if (camera.width_px < 1 || camera.height_px < 1) {
-    return wrong("width_px and height_px are not both above 0", "give the size of its images");
+    return wrong("camera", "width_px and height_px are not both above 0",
+                 "give the size of its images");
   }
   if (!is_above_zero(camera.focal_x_px) || !is_above_zero(camera.focal_y_px)) {
-    return wrong("focal_x_px and focal_y_px are not both above 0", "calibrate the camera");
+    return wrong("camera", "focal_x_px and focal_y_px are not both above 0",
+                 "calibrate the camera");
   }
   if (!std::isfinite(camera.principal_x_px) || !std::isfinite(camera.principal_y_px)) {
-    return wrong("the principal point is not finite", "calibrate the camera");
+    return wrong("camera", "the principal point is not finite", "calibrate the camera");
   }
   const Mounting& m = camera.mounting;
   for (const double value : {m.forward_m, m.right_m, m.up_m, m.yaw_deg, m.pitch_deg, m.roll_deg}) {
-    if (!std::isfinite(value)) return wrong("the mounting is not finite", "measure it");
+    if (!std::isfinite(value)) return wrong("camera", "the mounting is not finite", "measure it");
   }
   for (const double coefficient : camera.distortion) {
     if (coefficient == 0) continue;

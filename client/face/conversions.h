@@ -4,6 +4,7 @@
 #include <milepost/camera.h>
 #include <milepost/patience.h>
 #include <milepost/pose.h>
+#include <milepost/readings.h>
 #include <milepost/result.h>
 #include <milepost/source.h>
 
@@ -23,6 +24,11 @@ Error error_of(const milepost::Error& error);
 // From now on. A year at most: longer ones are as good as for ever, and cannot be counted.
 std::chrono::steady_clock::time_point deadline_of(const Patience& patience);
 
+// An error that is invalid_input.
+Error wrong(const std::string& where, const std::string& what, const std::string& mend);
+
+// Errors: invalid_input (not finite).
+Status check_reading(const OdometryReading& reading);
 // Errors: invalid_input (a value out of its range), unsupported (a lens with distortion).
 Status check_camera(const Camera& camera);
 QueryCamera query_camera_of(const Camera& camera);

@@ -28,10 +28,6 @@ FinderStatus status_of(FindStatus status) {
   return FinderStatus::initializing;
 }
 
-Error wrong(const char* where, const char* what, const char* mend) {
-  return {ErrorCode::invalid_input, where, what, mend};
-}
-
 bool is_box(const Area& area) {
   const bool in_range = area.west_deg >= -180 && area.east_deg <= 180 && area.south_deg >= -90 &&
                         area.north_deg <= 90;
@@ -152,9 +148,7 @@ Finder::Finder(Finder&&) noexcept = default;
 Finder& Finder::operator=(Finder&&) noexcept = default;
 
 Status Finder::observe(const OdometryReading& reading) {
-  const bool is_sound = std::isfinite(reading.timestamp_s) && std::isfinite(reading.speed_mps) &&
-                        std::isfinite(reading.yaw_rate_dps);
-  if (!is_sound) return wrong("odometry reading", "a value is not finite", "leave it out");
+  if (Status sound = check_reading(reading); !sound) return sound;
   impl_->finder.observe(Odometry{reading.timestamp_s, reading.speed_mps, reading.yaw_rate_dps});
   return {};
 }

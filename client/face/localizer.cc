@@ -30,10 +30,6 @@ FixStatus status_of(milepost::FixStatus status) {
   return FixStatus::initializing;
 }
 
-Error wrong(const char* where, const char* what, const char* mend) {
-  return {ErrorCode::invalid_input, where, what, mend};
-}
-
 }  // namespace
 
 const char* name_of(FixStatus status) {
@@ -135,9 +131,7 @@ Status Localizer::observe(const ReceiverReading& reading) {
 }
 
 Status Localizer::observe(const OdometryReading& reading) {
-  const bool is_sound = std::isfinite(reading.timestamp_s) && std::isfinite(reading.speed_mps) &&
-                        std::isfinite(reading.yaw_rate_dps);
-  if (!is_sound) return wrong("odometry reading", "a value is not finite", "leave it out");
+  if (Status sound = check_reading(reading); !sound) return sound;
   if (impl_->latest_odometry_s && reading.timestamp_s <= *impl_->latest_odometry_s) {
     return wrong("odometry reading", "it is not later than the one before", "give them in order");
   }

@@ -50,20 +50,16 @@ void ProviderState::let_go() {
     const SegmentKey& key = entry_of_segment.first;
     Segment& segment = entry_of_segment.second;
     if (!segment.held.layer) continue;
-    std::vector<AlongRange> kept;
-    for (const Want& want : wants_.tiles) {
-      if (want.segment != key) continue;
-      kept.push_back(want.range.widened(settings_.kept_m));
-    }
-    const auto meets = [&](const std::vector<AlongRange>& ranges, std::uint32_t index) {
+    const auto is_far = [&](const auto& tile) {
       const auto entry =
-          std::ranges::lower_bound(segment.held.layer->index, index, {}, &TileEntry::index);
-      return std::ranges::any_of(
-          ranges, [&](const AlongRange& range) { return entry->along.meets(range); });
+          std::ranges::lower_bound(segment.held.layer->index, tile.first, {}, &TileEntry::index);
+      return std::ranges::none_of(wants_.tiles, [&](const Want& want) {
+        return want.segment == key && entry->along.meets(want.range.widened(settings_.kept_m));
+      });
     };
     const std::size_t before = segment.held.tiles.size() + segment.held.missing.size();
-    std::erase_if(segment.held.tiles, [&](const auto& tile) { return !meets(kept, tile.first); });
-    std::erase_if(segment.awaited, [&](const auto& tile) { return !meets(kept, tile.first); });
+    std::erase_if(segment.held.tiles, is_far);
+    std::erase_if(segment.awaited, is_far);
     std::erase_if(segment.held.missing,
                   [&](const auto& tile) { return !segment.awaited.contains(tile.first); });
     if (before == segment.held.tiles.size() + segment.held.missing.size()) continue;
@@ -178,16 +174,19 @@ std::optional<SteadyTime> ProviderState::next_due(SteadyTime now) const {
 
 void ProviderState::take(const AskAround& task, std::vector<NearbySegment> near, SteadyTime now) {
   // Who told a build that is gone does not know yet: he is asked again.
-  const bool is_old = std::erase_if(near, [&](const NearbySegment& segment) {
-                        return gone_.contains(segment.version);
-                      }) > 0;
+  std::optional<Error> old;
+  std::erase_if(near, [&](const NearbySegment& segment) {
+    const auto gone = gone_.find(segment.version);
+    if (gone != gone_.end()) old = gone->second;
+    return gone != gone_.end();
+  });
   around_ = std::move(near);
   known_around_ = task.asked;
   around_failure_.reset();
   around_backoff_.succeeded();
-  if (is_old) {
+  if (old) {
     known_around_.radius_m = -1;
-    around_failure_ = gone_.begin()->second;
+    around_failure_ = old;
     around_backoff_.failed(now, 0, settings_.backoff, random_);
   }
   let_go();

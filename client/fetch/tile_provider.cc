@@ -91,12 +91,8 @@ bool TileProvider::is_settled() const {
 void TileProvider::wait_for_change(const std::shared_ptr<const HeldMap>& before,
                                    SteadyTime deadline) const {
   Impl::Lock lock(impl_->mutex);
-  while (steady_clock::now() < deadline && impl_->state.held() == before &&
-         !impl_->state.is_settled()) {
-    // Some of what is wanted counts as asked for in vain when time has passed.
-    const SteadyTime soon = steady_clock::now() + std::chrono::milliseconds(100);
-    impl_->changed.wait_until(lock, std::min(soon, deadline));
-  }
+  impl_->changed.wait_until(
+      lock, deadline, [&] { return impl_->state.held() != before || impl_->state.is_settled(); });
 }
 
 void TileProvider::Impl::read_stored() {

@@ -96,6 +96,13 @@ Fix unlocated(double timestamp_s, FixStatus status) {
   return fix;
 }
 
+Searching lost_from(const Place& place, double timestamp_s) {
+  Searching lost{FixStatus::lost};
+  const double sigma_m = std::max(place.follower->position().sigma_m, kElsewhereM);
+  lost.lost_at = CoarsePosition{timestamp_s, place.position(), sigma_m};
+  return lost;
+}
+
 // Adds a variance that is alike in each direction of the plan.
 void widen_in_plan(CameraPlacement& camera, double sigma_m) {
   camera.covariance[0] += sigma_m * sigma_m;
@@ -343,10 +350,7 @@ Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
   const Followed followed = place.advance(frame);
   if (followed.failure) noted = followed.failure;
   if (followed.failure && followed.failure->code == ErrorCode::gone) {  // rebuilt meanwhile
-    Searching lost{FixStatus::lost};
-    const double sigma_m = std::max(place.follower->position().sigma_m, kElsewhereM);
-    lost.lost_at = CoarsePosition{frame.timestamp_s(), place.position(), sigma_m};
-    state = std::move(lost);
+    state = lost_from(place, frame.timestamp_s());
     return search(frame);
   }
   following.doubt.reset();
@@ -366,9 +370,7 @@ Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
     if (following.doubt) widen(fix, *following.doubt, place, {});
     return fix;
   }
-  Searching lost{FixStatus::lost};
-  const double sigma_m = std::max(place.follower->position().sigma_m, kElsewhereM);
-  lost.lost_at = CoarsePosition{frame.timestamp_s(), place.position(), sigma_m};
+  Searching lost = lost_from(place, frame.timestamp_s());
   lost.places.push_back(std::move(place));
   state = std::move(lost);
   return search(frame);
