@@ -4,20 +4,22 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/source_options.h"
-#include "client/evaluate/cells.h"
+#include "client/evaluate/baselines/orientation_filter.h"
 #include "client/evaluate/find_errors.h"
 #include "client/evaluate/output.h"
 #include "client/evaluate/report/find_report.h"
 #include "client/evaluate/report/report_page.h"
 #include "client/fetch/walls.h"
+#include "schema/base/csv_text.h"
+#include "schema/base/digits.h"
 #include "schema/base/file.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
 
-const std::map<std::string, FindMethod> kMethods = {{"orientations", FindMethod::orientations},
-                                                    {"combined", FindMethod::combined}};
+const std::map<std::string, FindMethod (*)()> kMethods = {{"orientations", orientations_method},
+                                                          {"combined", combined_method}};
 
 struct Options {
   SourceOptions source;
@@ -128,7 +130,7 @@ std::optional<std::string> wrong_call(const Options& options) {
 
 FinderSettings finder_settings(const Options& options, bool has_heading) {
   FinderSettings settings;
-  settings.method = kMethods.at(options.method);
+  settings.method = kMethods.at(options.method)();
   settings.particles = static_cast<std::size_t>(options.particles);
   settings.seed = static_cast<std::uint64_t>(options.seed);
   settings.area = area_of(options);
@@ -156,18 +158,17 @@ std::vector<std::filesystem::path> inputs_of(const Drive& drive, const Options& 
 }
 
 std::string found_csv(const std::vector<FoundFrame>& frames) {
-  std::string text =
+  CsvText csv(
       "timestamp_s,filename,status,latitude_deg,longitude_deg,heading_deg,sigma_m,latency_ms,"
-      "mass,explained\n";
+      "mass,explained");
   for (const FoundFrame& frame : frames) {
     const FindFix& fix = frame.fix;
-    text += number(fix.timestamp_s, 4) + "," + frame.filename + "," + name_of(fix.status) + "," +
-            number(fix.position.latitude_deg, 9) + "," + number(fix.position.longitude_deg, 9) +
-            "," + number(fix.heading_deg, 3) + "," + number(fix.sigma_m, 3) + "," +
-            number(frame.latency_ms, 2) + "," + number(fix.mass, 4) + "," +
-            number(fix.explained, 4) + "\n";
+    csv.rounded(fix.timestamp_s, 4).cell(frame.filename).cell(name_of(fix.status));
+    csv.rounded(fix.position.latitude_deg, 9).rounded(fix.position.longitude_deg, 9);
+    csv.rounded(fix.heading_deg, 3).rounded(fix.sigma_m, 3).rounded(frame.latency_ms, 2);
+    csv.rounded(fix.mass, 4).rounded(fix.explained, 4).end_row();
   }
-  return text;
+  return csv.text();
 }
 
 std::string summary_line(const std::vector<FoundFrame>& frames, const std::string& out) {
@@ -177,7 +178,7 @@ std::string summary_line(const std::vector<FoundFrame>& frames, const std::strin
     if (!is_tracked(frame.fix.status)) continue;
     if (tracked++ > 0) continue;
     since =
-        "found after " + number(frame.fix.timestamp_s - frames.front().fix.timestamp_s, 1) + " s";
+        "found after " + fixed(frame.fix.timestamp_s - frames.front().fix.timestamp_s, 1) + " s";
   }
   return out + ": " + since + ", " + std::to_string(tracked) + " of " +
          std::to_string(frames.size()) + " frames tracked";

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/commands.h"
+#include "client/evaluate/baselines/vanishing_clustering.h"
 #include "client/global/vanishing_directions.h"
 #include "schema/base/file.h"
 #include "schema/base/output_file.h"
@@ -13,15 +14,16 @@
 #include "schema/drive/description.h"
 #include "schema/drive/frame_image.h"
 #include "schema/drive/grey_depth.h"
-#include "schema/drive/pinhole.h"
 
 namespace milepost {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::map<std::string, VanishingMethod> kMethods = {
-    {"clustering", VanishingMethod::clustering}, {"evidence", VanishingMethod::evidence}};
+using FindDirections = VanishingDirections (*)(const cv::Mat& gray, const Pinhole& view,
+                                               const VanishingSettings& settings);
+const std::map<std::string, FindDirections> kMethods = {
+    {"clustering", clustered_vanishing_directions}, {"evidence", vanishing_directions}};
 
 bool begins_directions(std::string_view head) {
   return begins_without_space(head, R"([{"image":)");
@@ -54,7 +56,7 @@ Json json_of(const std::string& image, const VanishingDirections& found) {
 }
 
 Result<Json> found_in_all(const std::vector<std::string>& images, const Camera& camera,
-                          const VanishingSettings& settings) {
+                          FindDirections find, const VanishingSettings& settings) {
   ProgressLine progress;
   Json entries = Json::array();
   const int grey_bits = grey_bits_of({images.begin(), images.end()});
@@ -66,7 +68,7 @@ Result<Json> found_in_all(const std::vector<std::string>& images, const Camera& 
                   std::to_string(images.size()));
     const Result<cv::Mat> gray = read_image_gray(image, camera, grey_bits);
     if (!gray) return gray.error();
-    entries.push_back(json_of(image, vanishing_directions(*gray, pinhole_of(camera), settings)));
+    entries.push_back(json_of(image, find(*gray, camera.pinhole, settings)));
   }
   return entries;
 }
@@ -121,7 +123,6 @@ int run_vanishing(const std::string& program, std::vector<std::string> words) {
              "Greatest tilt of the camera, roll and pitch together", 1, 44);
   app.add_option("IMAGE", images, "Images to look at")->required()->option_text("IMAGE...");
   if (const auto code = parse_words(app, std::move(words))) return *code;
-  settings.method = kMethods.at(method);
 
   const Result<Camera> camera = read_camera(camera_file);
   if (!camera) return fail(program, camera.error());
@@ -131,7 +132,7 @@ int run_vanishing(const std::string& program, std::vector<std::string> words) {
     return fail(program, free.error());
   }
   catch_stop_signals();
-  const Result<Json> entries = found_in_all(images, *camera, settings);
+  const Result<Json> entries = found_in_all(images, *camera, kMethods.at(method), settings);
   if (!entries) return fail(program, entries.error());
   const Result<std::string> text = text_of(*entries, out);
   if (!text) return fail(program, text.error());

@@ -20,11 +20,6 @@ std::span<const Reading> taken_until(double timestamp_s, std::span<const Reading
 
 }  // namespace
 
-QueryCamera query_camera_of(const Camera& camera) {
-  return {camera.width_px,   camera.height_px,      camera.focal_x_px,
-          camera.focal_y_px, camera.principal_x_px, camera.principal_y_px};
-}
-
 std::span<const GpsFix> SensorLog::gps_until(double timestamp_s) {
   return taken_until(timestamp_s + kClockRoundingS, gps_);
 }

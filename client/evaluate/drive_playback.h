@@ -9,8 +9,6 @@
 
 namespace milepost {
 
-QueryCamera query_camera_of(const Camera& camera);
-
 // The receiver's and the wheels' readings of a drive, each told once its time has come. The drive
 // must outlive it.
 class SensorLog {

@@ -5,7 +5,6 @@
 #include "client/evaluate/drive_playback.h"
 #include "client/localize/localizer.h"
 #include "schema/drive/frame_image.h"
-#include "schema/drive/pinhole.h"
 #include "schema/feature/extractor.h"
 
 namespace milepost {
@@ -17,7 +16,7 @@ constexpr std::chrono::seconds kLongestWait(20);  // for the map, of one frame
 class Successor {
  public:
   Successor(const std::shared_ptr<MapSource>& source, const Camera& camera)
-      : localizer_(source, query_camera_of(camera), LocalizerSettings()) {}
+      : localizer_(source, camera, LocalizerSettings()) {}
 
   void observe(const Odometry& wheels) { localizer_.observe(wheels); }
 
@@ -54,7 +53,7 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
                  "there is nothing that says how the vehicle moved",
                  "add what its wheels said (timestamp_s,speed_mps,yaw_rate_dps)"};
   }
-  Finder finder(walls, pinhole_of(drive.camera), run.finder);
+  Finder finder(walls, drive.camera.pinhole, run.finder);
   std::optional<Successor> successor;
   if (run.localizer_source) successor.emplace(run.localizer_source, drive.camera);
 

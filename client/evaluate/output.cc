@@ -6,7 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/evaluate/cells.h"
+#include "schema/base/csv_text.h"
+#include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
@@ -16,21 +17,18 @@ constexpr const char* kFixColumns =
     "latency_ms";
 constexpr const char* kPoseColumns = "lateral_m,heading_deg,lateral_sigma_m";
 
-std::string fix_cells(const FrameFix& frame) {
+void add_fix(CsvText& csv, const FrameFix& frame) {
   const Fix& fix = frame.fix;
-  const bool located = fix.along_m.has_value();
-  std::string row =
-      number(fix.timestamp_s, 4) + "," + frame.filename + "," + name_of(fix.status) + ",";
-  row += fix.segment + "," + number(fix.along_m, 4) + ",";
-  row += (located ? number(fix.sigma_m, 4) : "") + ",";
-  row += (fix.position ? number(fix.position->latitude_deg, 9) : "") + ",";
-  row += (fix.position ? number(fix.position->longitude_deg, 9) : "") + ",";
-  return row + std::to_string(fix.matches) + "," + number(frame.latency_ms, 2);
+  csv.rounded(fix.timestamp_s, 4).cell(frame.filename).cell(name_of(fix.status)).cell(fix.segment);
+  csv.rounded(fix.along_m, 4);
+  csv.rounded(fix.along_m ? std::optional(fix.sigma_m) : std::nullopt, 4);
+  csv.rounded(fix.position ? std::optional(fix.position->latitude_deg) : std::nullopt, 9);
+  csv.rounded(fix.position ? std::optional(fix.position->longitude_deg) : std::nullopt, 9);
+  csv.cell(static_cast<long long>(fix.matches)).rounded(frame.latency_ms, 2);
 }
 
-std::string pose_cells(const Fix& fix) {
-  return number(fix.lateral_m, 4) + "," + number(fix.heading_deg, 4) + "," +
-         number(fix.lateral_sigma_m, 4);
+void add_pose(CsvText& csv, const Fix& fix) {
+  csv.rounded(fix.lateral_m, 4).rounded(fix.heading_deg, 4).rounded(fix.lateral_sigma_m, 4);
 }
 
 nlohmann::ordered_json figure(double value) {
@@ -39,7 +37,7 @@ nlohmann::ordered_json figure(double value) {
 
 // Of a table for a person.
 std::string cell(double value, int digits) {
-  return std::isfinite(value) ? number(value, digits) : "-";
+  return std::isfinite(value) ? fixed(value, digits) : "-";
 }
 
 bool begins_fixes(std::string_view head) {
@@ -54,23 +52,26 @@ const OutputKind kFixesOutput = {"a table of fixes", begins_fixes, true};
 const OutputKind kSummaryOutput = {"a summary of an evaluation", begins_summary, true};
 
 std::string fixes_csv(const std::vector<FrameFix>& fixes) {
-  std::string text = std::string(kFixColumns) + "," + kPoseColumns + "\n";
+  CsvText csv(std::string(kFixColumns) + "," + kPoseColumns);
   for (const FrameFix& frame : fixes) {
-    text += fix_cells(frame) + "," + pose_cells(frame.fix) + "\n";
+    add_fix(csv, frame);
+    add_pose(csv, frame.fix);
+    csv.end_row();
   }
-  return text;
+  return csv.text();
 }
 
 std::string evaluated_fixes_csv(const std::vector<EvaluatedFix>& fixes) {
-  std::string text = std::string(kFixColumns) + ",truth_along_m,error_m," + kPoseColumns +
-                     ",truth_lateral_m,lateral_error_m,heading_error_deg\n";
+  CsvText csv(std::string(kFixColumns) + ",truth_along_m,error_m," + kPoseColumns +
+              ",truth_lateral_m,lateral_error_m,heading_error_deg");
   for (const EvaluatedFix& fix : fixes) {
-    text += fix_cells(fix.frame) + "," + number(fix.truth_along_m, 4) + "," +
-            number(fix.error_m, 4) + "," + pose_cells(fix.frame.fix) + "," +
-            number(fix.truth_lateral_m, 4) + "," + number(fix.lateral_error_m, 4) + "," +
-            number(fix.heading_error_deg, 4) + "\n";
+    add_fix(csv, fix.frame);
+    csv.rounded(fix.truth_along_m, 4).rounded(fix.error_m, 4);
+    add_pose(csv, fix.frame.fix);
+    csv.rounded(fix.truth_lateral_m, 4).rounded(fix.lateral_error_m, 4);
+    csv.rounded(fix.heading_error_deg, 4).end_row();
   }
-  return text;
+  return csv.text();
 }
 
 std::string summary_json(const std::vector<MethodEvaluation>& methods) {

@@ -159,7 +159,6 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
                  "add the receiver's positions (timestamp_s,latitude_deg,longitude_deg,sigma_m)"};
   }
   std::vector<Runner> runners;
-  const QueryCamera camera = query_camera_of(drive.camera);
   for (const Method& method : methods) {
     LocalizerSettings settings;
     settings.method = method;
@@ -169,7 +168,7 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
         all->push_back(estimate);
       };
     }
-    runners.push_back({Localizer(source, camera, settings), std::move(estimates)});
+    runners.push_back({Localizer(source, drive.camera, settings), std::move(estimates)});
   }
 
   Replay replay;

@@ -7,6 +7,8 @@
 
 #include "client/fetch/file_source.h"
 #include "client/fetch/http_source.h"
+#include "schema/geo/camera_pose.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost::vehicle {
 namespace {
@@ -44,28 +46,22 @@ Result<std::shared_ptr<MapSource>> as_face(milepost::Result<std::shared_ptr<MapS
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-CameraPose pose_of(const Vector6& v) { return {v.head<3>(), v[3], v[4], v[5]}; }
+CameraPose pose_from(const Vector6& v) { return {v.head<3>(), v[3], v[4], v[5]}; }
 
-// The vehicle as if it were a camera that looks forward: its rotation is of the same kind.
-Vector6 vehicle_from_camera(const Vector6& camera, const Mounting& mounting) {
-  const CameraPose mounted = {Eigen::Vector3d::Zero(), mounting.yaw_deg * kRadPerDeg,
-                              mounting.pitch_deg * kRadPerDeg, mounting.roll_deg * kRadPerDeg};
-  const Eigen::Matrix3d camera_from_vehicle =
-      camera_from_enu(mounted) * level_camera_from_enu(0.0).transpose();
-  const Eigen::Matrix3d vehicle_from_enu =
-      camera_from_vehicle.transpose() * camera_from_enu(pose_of(camera));
-  const Eigen::Vector3d forward = vehicle_from_enu.row(2);
-  CameraPose vehicle;
-  vehicle.heading_rad = std::atan2(forward.x(), forward.y());
-  vehicle.pitch_rad = std::asin(std::clamp(forward.z(), -1.0, 1.0));
-  const Eigen::Matrix3d unrolled = camera_from_enu(vehicle);
-  const Eigen::Vector3d right = vehicle_from_enu.row(0);
-  vehicle.roll_rad = std::atan2(unrolled.row(1).dot(right), unrolled.row(0).dot(right));
-  const Eigen::Vector3d lever_m(mounting.right_m, -mounting.up_m, mounting.forward_m);
-  vehicle.enu_m = camera.head<3>() - vehicle_from_enu.transpose() * lever_m;
+Vector6 vector_from(const CameraPose& pose) {
   Vector6 v;
-  v << vehicle.enu_m, vehicle.heading_rad, vehicle.pitch_rad, vehicle.roll_rad;
+  v << pose.enu_m, pose.heading_rad, pose.pitch_rad, pose.roll_rad;
   return v;
+}
+
+// The vehicle's frame is that of a camera that looks forward: x right, y down, z forward.
+Eigen::Isometry3d vehicle_from_camera(const Mounting& mounting) {
+  const CameraPose vehicle;  // where forward is north
+  const CameraPose camera = {{mounting.right_m, mounting.forward_m, mounting.up_m},
+                             mounting.yaw_deg * kRadPerDeg,
+                             mounting.pitch_deg * kRadPerDeg,
+                             mounting.roll_deg * kRadPerDeg};
+  return enu_from_camera(vehicle).inverse() * enu_from_camera(camera);
 }
 
 }  // namespace
@@ -119,13 +115,10 @@ Status check_camera(const Camera& camera) {
   return {};
 }
 
-QueryCamera query_camera_of(const Camera& camera) {
-  return {camera.width_px,   camera.height_px,      camera.focal_x_px,
-          camera.focal_y_px, camera.principal_x_px, camera.principal_y_px};
-}
-
-Pinhole pinhole_of(const Camera& camera) {
-  return {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px, camera.principal_y_px};
+milepost::Camera plain_camera_of(const Camera& camera) {
+  return {camera.width_px,
+          camera.height_px,
+          {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px, camera.principal_y_px}};
 }
 
 Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
@@ -153,16 +146,18 @@ Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
 }
 
 Pose vehicle_pose_of(const CameraPlacement& camera, const Mounting& mounting) {
-  Vector6 at;
-  at << 0, 0, 0, camera.heading_deg * kRadPerDeg, camera.pitch_deg * kRadPerDeg,
-      camera.roll_deg * kRadPerDeg;
-  const Vector6 vehicle = vehicle_from_camera(at, mounting);
+  const Eigen::Isometry3d camera_from_vehicle = vehicle_from_camera(mounting).inverse();
+  const auto vehicle_of = [&](const Vector6& camera_pose) {
+    return vector_from(pose_of(enu_from_camera(pose_from(camera_pose)) * camera_from_vehicle));
+  };
+  const Vector6 at = vector_from({Eigen::Vector3d::Zero(), camera.heading_deg * kRadPerDeg,
+                                  camera.pitch_deg * kRadPerDeg, camera.roll_deg * kRadPerDeg});
+  const Vector6 vehicle = vehicle_of(at);
   Matrix6 derivative;
   constexpr double kStep = 1e-6;
   for (int i = 0; i < 6; ++i) {
     const Vector6 step = kStep * Vector6::Unit(i);
-    Vector6 change =
-        vehicle_from_camera(at + step, mounting) - vehicle_from_camera(at - step, mounting);
+    Vector6 change = vehicle_of(at + step) - vehicle_of(at - step);
     // Headings turn over at south.
     for (int angle = 3; angle < 6; ++angle) {
       change[angle] = std::remainder(change[angle], 2 * std::numbers::pi);

@@ -12,10 +12,9 @@
 #include <memory>
 
 #include "client/fetch/map_source.h"
-#include "client/localize/query.h"
 #include "client/localize/tracked_position.h"
 #include "schema/base/result.h"
-#include "schema/geo/camera_pose.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost::vehicle {
 
@@ -31,8 +30,7 @@ Error wrong(const std::string& where, const std::string& what, const std::string
 Status check_reading(const OdometryReading& reading);
 // Errors: invalid_input (a value out of its range), unsupported (a lens with distortion).
 Status check_camera(const Camera& camera);
-QueryCamera query_camera_of(const Camera& camera);
-Pinhole pinhole_of(const Camera& camera);
+milepost::Camera plain_camera_of(const Camera& camera);
 
 // Errors: those of Localizer::open.
 Result<std::shared_ptr<MapSource>> open_source(const Source& source);

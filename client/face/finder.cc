@@ -139,7 +139,9 @@ Result<Finder> Finder::open(const Source& source, const Camera& camera,
   }
   if (!walls) return walls.error();
   return Finder(std::make_unique<Impl>(
-      Impl{camera, milepost::Finder(*walls, pinhole_of(camera), internal_of(settings)), {}}));
+      Impl{camera,
+           milepost::Finder(*walls, plain_camera_of(camera).pinhole, internal_of(settings)),
+           {}}));
 }
 
 Finder::Finder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -51,7 +51,7 @@ const char* name_of(FixStatus status) {
 struct Localizer::Impl {
   Impl(const std::shared_ptr<MapSource>& source, Camera given,
        const milepost::LocalizerSettings& settings)
-      : camera(std::move(given)), localizer(source, query_camera_of(camera), settings) {}
+      : camera(std::move(given)), localizer(source, plain_camera_of(camera), settings) {}
 
   const FeatureSet& features_of(const cv::Mat& grey, const FeatureParameters& wanted) {
     if (!extractor || !(wanted == parameters)) {

@@ -166,9 +166,10 @@ Result<MapDescription> parse_map_document(std::string_view text, const std::stri
       break;
     }
     const std::string name = layer.get<std::string>();
-    description.layers[name] = fields.object(parameters, name.c_str()).dump();
+    description.layers.insert_or_assign(
+        name, layer_parameters_from_json(fields.object(parameters, name.c_str())));
   }
-  description.feature_json = fields.object(json, "feature").dump();
+  description.feature = feature_parameters_from_json(fields.object(json, "feature"));
   description.bounds = bounds_of(fields, fields.object(json, "bounds"));
   if (!fields.ok()) return fields.error();
   return description;

@@ -7,6 +7,7 @@
 #include "client/fetch/cell_request.h"
 #include "client/fetch/documents.h"
 #include "client/fetch/nearby.h"
+#include "schema/base/json.h"
 #include "schema/store/map_store.h"
 
 namespace milepost {
@@ -20,10 +21,32 @@ SegmentDescription description_of(const StoredSegment& stored) {
   return description;
 }
 
+// Of a JSON object that lies in the map as text.
+template <class Parameters>
+Result<Parameters> parameters_from(const std::string& text,
+                                   Result<Parameters> (*from_json)(const nlohmann::json&)) {
+  const Result<nlohmann::json> json = read_json(text);
+  if (json) return from_json(*json);
+  Error error = json.error();
+  error.mend = "build the map anew";
+  return error;
+}
+
+MapDescription description_of(const MapReader& reader) {
+  MapDescription description;
+  description.version = {reader.file().stem().string(), reader.build()};
+  for (const auto& [name, parameters] : reader.layers()) {
+    description.layers.emplace(name, parameters_from(parameters, layer_parameters_from_json));
+  }
+  description.feature = parameters_from(reader.feature_json(), feature_parameters_from_json);
+  description.bounds = reader.bounds();
+  return description;
+}
+
 class FileSource : public MapSource, public std::enable_shared_from_this<FileSource> {
  public:
   explicit FileSource(MapReader reader)
-      : reader_(std::move(reader)), version_{reader_.file().stem().string(), reader_.build()} {}
+      : reader_(std::move(reader)), description_(description_of(reader_)) {}
 
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                    double radius_m) override {
@@ -34,13 +57,15 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
     return lines_near(*lines_, position, radius_m);
   }
 
-  Result<std::vector<MapVersion>> maps() override { return std::vector<MapVersion>{version_}; }
+  Result<std::vector<MapVersion>> maps() override {
+    return std::vector<MapVersion>{description_.version};
+  }
 
   Result<MapDescription> describe(const MapVersion& version) override {
     const std::lock_guard lock(mutex_);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    return MapDescription{version_, reader_.layers(), reader_.feature_json(), reader_.bounds()};
+    return description_;
   }
 
   Result<SegmentDescription> segment(const MapVersion& version,
@@ -53,37 +78,38 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
     return description_of(*stored);
   }
 
-  Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
-                                       const std::string& layer, const AlongRange& range) override {
+  Result<std::vector<EncodedTile>> tiles(const MapVersion& version, const std::string& segment,
+                                         const std::string& layer,
+                                         const AlongRange& range) override {
     const std::lock_guard lock(mutex_);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
     const auto entries = reader_.tiles_in(segment, layer, range);
     if (!entries.ok()) return entries.error();
-    std::vector<TileFrame> frames;
+    std::vector<EncodedTile> tiles;
     for (const TileEntry& entry : *entries) {
-      Result<Bytes> frame = reader_.tile(segment, layer, entry.index);
-      if (!frame.ok()) return frame.error();
-      frames.push_back({entry.index, std::move(frame).value()});
+      Result<Bytes> tile = reader_.tile(segment, layer, entry.index);
+      if (!tile.ok()) return tile.error();
+      tiles.push_back({entry.index, std::move(tile).value()});
     }
-    return frames;
+    return tiles;
   }
 
-  Result<std::vector<CellFrame>> cells(const MapVersion& version, const std::string& layer,
-                                       const Bounds& box) override {
+  Result<std::vector<EncodedCell>> cells(const MapVersion& version, const std::string& layer,
+                                         const Bounds& box) override {
     const std::lock_guard lock(mutex_);
     Status checked = check_area_query(box);
     if (checked.ok()) checked = check(version);
     if (!checked.ok()) return checked.error();
     const auto entries = reader_.cells_in(layer, box);
     if (!entries.ok()) return entries.error();
-    std::vector<CellFrame> frames;
+    std::vector<EncodedCell> tiles;
     for (const CellEntry& entry : *entries) {
-      Result<Bytes> frame = reader_.cell(layer, entry.cell);
-      if (!frame.ok()) return frame.error();
-      frames.push_back({entry.cell, std::move(frame).value()});
+      Result<Bytes> tile = reader_.cell(layer, entry.cell);
+      if (!tile.ok()) return tile.error();
+      tiles.push_back({entry.cell, std::move(tile).value()});
     }
-    return frames;
+    return tiles;
   }
 
   Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
@@ -112,9 +138,9 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
     const std::lock_guard lock(mutex_);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    Result<Bytes> frame = reader_.tile(segment, layer, entry.index);
-    if (!frame.ok()) return frame.error();
-    return std::optional<Bytes>(std::move(frame).value());
+    Result<Bytes> tile = reader_.tile(segment, layer, entry.index);
+    if (!tile.ok()) return tile.error();
+    return std::optional<Bytes>(std::move(tile).value());
   }
 
   Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
@@ -135,14 +161,14 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
 
  private:
   Status check(const MapVersion& version) const {
-    if (version == version_) return ok_status();
+    if (version == description_.version) return ok_status();
     const std::string file = reader_.file().string();
-    if (version.map != version_.map) {
+    if (version.map != description_.version.map) {
       return Error{ErrorCode::not_found, file, "this is not the map \"" + version.map + "\"", ""};
     }
     return Error{ErrorCode::gone, file,
                  "the map was rebuilt: build " + version.build + " is gone, the current one is " +
-                     version_.build,
+                     description_.version.build,
                  "ask for the map's current build"};
   }
 
@@ -153,7 +179,7 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
     for (const std::string& id : reader_.segment_ids()) {
       const Result<StoredSegment> stored = reader_.segment(id);
       if (!stored.ok()) return stored.error();
-      add_line(version_, description_of(*stored), lines);
+      add_line(description_.version, description_of(*stored), lines);
     }
     lines_ = std::move(lines);
     return ok_status();
@@ -161,7 +187,7 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
 
   std::mutex mutex_;  // guards the reader and what is read
   MapReader reader_;
-  const MapVersion version_;
+  const MapDescription description_;
   std::optional<std::vector<KnownLine>> lines_;
 };
 

@@ -1,8 +1,6 @@
 #include "client/fetch/http_source.h"
 
-#include <array>
 #include <atomic>
-#include <charconv>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -12,11 +10,12 @@
 #include "client/cache/tile_cache.h"
 #include "client/fetch/cell_request.h"
 #include "client/fetch/documents.h"
-#include "client/fetch/frame_fetcher.h"
 #include "client/fetch/http_source_parts.h"
 #include "client/fetch/nearby.h"
 #include "client/fetch/server_requests.h"
+#include "client/fetch/tile_fetcher.h"
 #include "client/fetch/tile_request.h"
+#include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
@@ -28,15 +27,6 @@ constexpr std::int64_t kServerAway_s = 5;
 
 template <class Entry>
 using SharedIndex = std::shared_ptr<const std::vector<Entry>>;
-
-// The shortest digits that read back as the same number; never an exponent, whose + is a space in
-// a URL.
-std::string digits_of(double number) {
-  std::array<char, 512> buffer{};
-  const auto written =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::fixed);
-  return {buffer.data(), written.ptr};
-}
 
 bool is_unavailable(const Status& status) {
   return !status.ok() && status.error().code == ErrorCode::unavailable;
@@ -109,7 +99,7 @@ struct HttpShared {
   const std::function<std::int64_t()> steady_s;
   const std::unique_ptr<TileCache> cache;
   ServerRequests requests;
-  FrameFetcher fetcher;
+  TileFetcher fetcher;
   DocumentMemory<MapDescription> maps;
   DocumentMemory<SegmentDocument> segments;
   DocumentMemory<AreasDocument> areas;
@@ -134,9 +124,9 @@ class HttpSource : public MapSource {
                                                    double radius_m) override {
     const Status checked = check_near_query(position, radius_m);
     if (!checked.ok()) return checked.error();
-    const std::string url = base_url_ + "/v1/segments?near=" + digits_of(position.latitude_deg) +
-                            "," + digits_of(position.longitude_deg) +
-                            "&radius_m=" + digits_of(radius_m);
+    const std::string url =
+        base_url_ + "/v1/segments?near=" + shortest_fixed(position.latitude_deg) + "," +
+        shortest_fixed(position.longitude_deg) + "&radius_m=" + shortest_fixed(radius_m);
     const auto parse = [this, &url](const std::string& text) {
       auto segments = parse_nearby_document(text, url);
       if (segments.ok()) shared_->known_lines.forget();
@@ -178,8 +168,9 @@ class HttpSource : public MapSource {
     return (*document)->description;
   }
 
-  Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
-                                       const std::string& layer, const AlongRange& range) override {
+  Result<std::vector<EncodedTile>> tiles(const MapVersion& version, const std::string& segment,
+                                         const std::string& layer,
+                                         const AlongRange& range) override {
     const auto index = index_of(version, segment, layer);
     if (!index.ok()) return index.error();
     const std::vector<TileEntry> wanted = entries_meeting(**index, range);
@@ -187,20 +178,20 @@ class HttpSource : public MapSource {
     cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
     const std::string tiles_url = segment_url(version, segment) + "/tiles";
     auto found = fetcher_.fetch(
-        {version.map, version.build, segment, layer, 0}, expected_frames(wanted),
+        {version.map, version.build, segment, layer, 0}, expected_tiles(wanted),
         [&](const auto& missing) { return request_for_tiles(tiles_url, layer, **index, missing); },
         stopped_);
     if (!found.ok()) return found.error();
-    std::vector<TileFrame> frames;
-    frames.reserve(wanted.size());
+    std::vector<EncodedTile> tiles;
+    tiles.reserve(wanted.size());
     for (const TileEntry& entry : wanted) {
-      frames.push_back({entry.index, std::move((*found)[entry.index])});
+      tiles.push_back({entry.index, std::move((*found)[entry.index])});
     }
-    return frames;
+    return tiles;
   }
 
-  Result<std::vector<CellFrame>> cells(const MapVersion& version, const std::string& layer,
-                                       const Bounds& box) override {
+  Result<std::vector<EncodedCell>> cells(const MapVersion& version, const std::string& layer,
+                                         const Bounds& box) override {
     const Status checked = check_area_query(box);
     if (!checked.ok()) return checked.error();
     const auto index = cell_index_of(version, layer);
@@ -211,16 +202,16 @@ class HttpSource : public MapSource {
     cache_.touch(CacheKey::map_document(version.map, version.build));
     const std::string layer_url = areas_url(version) + "/" + escaped_for_url(layer);
     auto found = fetcher_.fetch(
-        {version.map, version.build, "", layer, 0}, expected_frames(wanted),
+        {version.map, version.build, "", layer, 0}, expected_tiles(wanted),
         [&](const auto& missing) { return request_for_cells(layer_url, **index, missing); },
         stopped_);
     if (!found.ok()) return found.error();
-    std::vector<CellFrame> frames;
-    frames.reserve(wanted.size());
+    std::vector<EncodedCell> tiles;
+    tiles.reserve(wanted.size());
     for (const CellEntry& entry : wanted) {
-      frames.push_back({entry.cell, std::move((*found)[entry.cell])});
+      tiles.push_back({entry.cell, std::move((*found)[entry.cell])});
     }
-    return frames;
+    return tiles;
   }
 
   Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
@@ -240,7 +231,7 @@ class HttpSource : public MapSource {
   Result<std::optional<Bytes>> stored_tile(const MapVersion& version, const std::string& segment,
                                            const std::string& layer,
                                            const TileEntry& entry) override {
-    return fetcher_.find({version.map, version.build, segment, layer, 0}, expected_frame(entry));
+    return fetcher_.find({version.map, version.build, segment, layer, 0}, expected_tile(entry));
   }
 
   Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
@@ -265,8 +256,8 @@ class HttpSource : public MapSource {
     return fetcher_.fetch_once(
         {version.map, version.build, segment, layer, 0},
         request_for_tiles(tiles_url, layer, **index, missing),
-        [&](std::uint32_t number, const Bytes& frame) {
-          take({number, frame});
+        [&](std::uint32_t number, const Bytes& tile) {
+          take({number, tile});
           return missing.contains(number);
         },
         stopped_);
@@ -300,29 +291,30 @@ class HttpSource : public MapSource {
 
   std::string areas_url(const MapVersion& version) const { return build_url(version) + "/areas"; }
 
-  static FrameRequest request_for_tiles(const std::string& tiles_url, const std::string& layer,
-                                        const std::vector<TileEntry>& index,
-                                        const std::set<std::uint32_t>& missing) {
+  static CheckedRequest request_for_tiles(const std::string& tiles_url, const std::string& layer,
+                                          const std::vector<TileEntry>& index,
+                                          const std::set<std::uint32_t>& missing) {
     const TileRequest request = request_for_first_run(index, missing);
     const std::string name = escaped_for_url(layer);
     const std::string url =
         request.range
-            ? tiles_url + "?layer=" + name + "&from_m=" + digits_of(request.range->from_m) +
-                  "&to_m=" + digits_of(request.range->to_m)
+            ? tiles_url + "?layer=" + name + "&from_m=" + shortest_fixed(request.range->from_m) +
+                  "&to_m=" + shortest_fixed(request.range->to_m)
             : tiles_url + "/" + name + "/" + std::to_string(request.expected.front().index);
-    return {url, expected_frames(request.expected)};
+    return {url, expected_tiles(request.expected)};
   }
 
-  static FrameRequest request_for_cells(const std::string& layer_url,
-                                        const std::vector<CellEntry>& index,
-                                        const std::set<std::uint32_t>& missing) {
+  static CheckedRequest request_for_cells(const std::string& layer_url,
+                                          const std::vector<CellEntry>& index,
+                                          const std::set<std::uint32_t>& missing) {
     const CellRequest request = request_for_first_block(index, missing);
-    const std::string url =
-        request.box ? layer_url + "?bbox=" + digits_of(request.box->west_deg) + "," +
-                          digits_of(request.box->south_deg) + "," +
-                          digits_of(request.box->east_deg) + "," + digits_of(request.box->north_deg)
-                    : layer_url + "/" + std::to_string(request.expected.front().cell);
-    return {url, expected_frames(request.expected)};
+    const std::string url = request.box
+                                ? layer_url + "?bbox=" + shortest_fixed(request.box->west_deg) +
+                                      "," + shortest_fixed(request.box->south_deg) + "," +
+                                      shortest_fixed(request.box->east_deg) + "," +
+                                      shortest_fixed(request.box->north_deg)
+                                : layer_url + "/" + std::to_string(request.expected.front().cell);
+    return {url, expected_tiles(request.expected)};
   }
 
   static Error rebuilt(const std::string& url, const MapVersion& asked, const MapVersion& current) {
@@ -473,7 +465,7 @@ class HttpSource : public MapSource {
   const std::string& base_url_;
   TileCache& cache_;
   ServerRequests& requests_;
-  FrameFetcher& fetcher_;
+  TileFetcher& fetcher_;
 };
 
 }  // namespace

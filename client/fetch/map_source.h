@@ -15,8 +15,10 @@
 #include "schema/base/cell_grid.h"
 #include "schema/base/range.h"
 #include "schema/base/result.h"
+#include "schema/feature/types.h"
 #include "schema/geo/geodesy.h"
 #include "schema/store/map_store.h"
+#include "schema/tile/layer_parameters.h"
 
 namespace milepost {
 
@@ -33,9 +35,11 @@ struct MapVersion {
 
 struct MapDescription {
   MapVersion version;
-  std::map<std::string, std::string> layers;  // name -> parameters, a JSON object
-  std::string feature_json;                   // feature parameters, a JSON object
-  Bounds bounds = {};                         // of all segments' lines and all cells
+  // By name. Errors: corrupt, for those whose parameters this client does not understand; walls are
+  // among them, of which it needs none.
+  std::map<std::string, Result<LayerParameters>> layers = {};
+  Result<FeatureParameters> feature = FeatureParameters();  // Errors: corrupt.
+  Bounds bounds = {};                                       // of all segments' lines and all cells
 };
 
 // A segment that passes near a position.
@@ -54,16 +58,16 @@ struct SegmentDescription {
   std::vector<std::string> successors;
 };
 
-// The stored frame of one tile: opaque here, decoded by schema/tile.
-struct TileFrame {
+// A tile as it is stored: opaque here, decoded by schema/tile.
+struct EncodedTile {
   std::uint32_t index = 0;
-  Bytes frame;
+  Bytes bytes;
 };
 
-// The stored frame of one cell of the grid: opaque here, decoded by schema/tile.
-struct CellFrame {
+// The tile of one cell of the grid as it is stored, likewise.
+struct EncodedCell {
   std::uint32_t cell = 0;
-  Bytes frame;
+  Bytes bytes;
 };
 
 // Counts since the source was made: what a run cost in transport.
@@ -93,13 +97,14 @@ class MapSource {
                                              const std::string& segment) = 0;
   // The tiles of a layer with an item whose along range meets `range`, ascending by index.
   // Waits for what is not cached yet.
-  virtual Result<std::vector<TileFrame>> tiles(const MapVersion& version,
-                                               const std::string& segment, const std::string& layer,
-                                               const AlongRange& range) = 0;
+  virtual Result<std::vector<EncodedTile>> tiles(const MapVersion& version,
+                                                 const std::string& segment,
+                                                 const std::string& layer,
+                                                 const AlongRange& range) = 0;
   // The cells of a layer that meet `box`, borders included, ascending. Waits for what is not cached
   // yet. Errors: also invalid_input (the box is none).
-  virtual Result<std::vector<CellFrame>> cells(const MapVersion& version, const std::string& layer,
-                                               const Bounds& box) = 0;
+  virtual Result<std::vector<EncodedCell>> cells(const MapVersion& version,
+                                                 const std::string& layer, const Bounds& box) = 0;
   // Bytes of all tiles of the layer on that segment: what a vehicle must hold for it.
   virtual Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
                                             const std::string& layer) = 0;
@@ -117,7 +122,7 @@ class MapSource {
                                                    const TileEntry& entry) = 0;
   // Asks once for tiles that stand side by side in the index; each is handed over as it arrives.
   // Ends well where some have, even if not all: the rest is asked for again.
-  using TileSink = std::function<void(const TileFrame& tile)>;
+  using TileSink = std::function<void(const EncodedTile& tile)>;
   virtual Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
                               const std::string& layer, const std::vector<TileEntry>& tiles,
                               const TileSink& take) = 0;

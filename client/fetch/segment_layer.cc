@@ -15,15 +15,14 @@ Result<std::shared_ptr<const BuildLayer>> read_build_layer(MapSource& source,
                  "it has no layer '" + layer + "', which the method needs",
                  "build it with milepost-mapper build --lab, or use the method milepost"};
   }
-  const Result<LayerParameters> parameters = layer_parameters_from_json(found->second);
+  const Result<LayerParameters>& parameters = found->second;
   if (!parameters) {
     Error error = parameters.error();
     error.where = "map '" + version.map + "', layer '" + layer + "'";
     return error;
   }
-  const Result<FeatureParameters> feature = feature_parameters_from_json(map->feature_json);
-  if (!feature) return feature.error();
-  return std::make_shared<const BuildLayer>(BuildLayer{*feature, *parameters});
+  if (!map->feature) return map->feature.error();
+  return std::make_shared<const BuildLayer>(BuildLayer{*map->feature, *parameters});
 }
 
 Result<std::shared_ptr<const SegmentLayer>> read_segment_layer(

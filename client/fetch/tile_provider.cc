@@ -173,8 +173,8 @@ Attempt TileProvider::Impl::ask(const ReadDocuments& task) {
 Attempt TileProvider::Impl::ask(const FetchTiles& task) {
   const SegmentKey& key = task.of->key;
   return source->fetch_tiles(key.version, key.segment, layer, task.tiles,
-                             [&](const TileFrame& frame) {
-                               take(*task.of, frame.index, frame.frame);
+                             [&](const EncodedTile& tile) {
+                               take(*task.of, tile.index, tile.bytes);
                                changed.notify_all();
                              });
 }

@@ -38,16 +38,16 @@ Result<std::vector<MapDescription>> maps_with_walls(MapSource& source) {
 
 Result<std::vector<Wall>> walls_in(MapSource& source, const MapVersion& version,
                                    const std::string& layer, const Bounds& box) {
-  const Result<std::vector<CellFrame>> frames = source.cells(version, layer, box);
-  if (!frames.ok()) return frames.error();
+  const Result<std::vector<EncodedCell>> cells = source.cells(version, layer, box);
+  if (!cells.ok()) return cells.error();
   std::vector<WallTile> tiles;
-  for (const CellFrame& frame : *frames) {
-    Result<WallTile> tile = decode_walls(frame.frame);
-    const bool as_named = tile.ok() && tile->cell == frame.cell;
+  for (const EncodedCell& cell : *cells) {
+    Result<WallTile> tile = decode_walls(cell.bytes);
+    const bool as_named = tile.ok() && tile->cell == cell.cell;
     if (!as_named) {
       return Error{
           ErrorCode::corrupt,
-          "map '" + version.map + "', layer '" + layer + "', cell " + std::to_string(frame.cell),
+          "map '" + version.map + "', layer '" + layer + "', cell " + std::to_string(cell.cell),
           tile.ok() ? "it holds the walls of cell " + std::to_string(tile->cell)
                     : tile.error().what,
           "build the map anew"};

@@ -1,7 +1,9 @@
 #include "client/global/camera_motion.h"
 
+#include <array>
 #include <cmath>
 
+#include "client/estimation/robust_weights.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -22,41 +24,45 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
   return Eigen::AngleAxisd(angle, turn_rad / angle).toRotationMatrix();
 }
 
-CameraMotion corrected(const CameraMotion& motion, const Correction& by) {
-  return {rotation(by.head<3>()) * motion.now_from_before,
-          rotation({by[3], by[4], 0}) * motion.way_m};
+Eigen::Isometry3d corrected(const Eigen::Isometry3d& before_from_now, const Correction& by) {
+  Eigen::Isometry3d corrected = Eigen::Isometry3d::Identity();
+  corrected.linear() = before_from_now.linear() * rotation(by.head<3>()).transpose();
+  corrected.translation() = rotation({by[3], by[4], 0}) * before_from_now.translation();
+  return corrected;
 }
 
 }  // namespace
 
-CameraMotion camera_motion(const WheelMotion& wheels) {
-  CameraMotion motion;
-  motion.now_from_before =
-      Eigen::AngleAxisd(-wheels.turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  motion.way_m = wheels.distance_m *
-                 Eigen::Vector3d(std::sin(wheels.turn_rad / 2), 0, std::cos(wheels.turn_rad / 2));
-  return motion;
+Eigen::Isometry3d camera_motion(const WheelMotion& wheels) {
+  const double turn_rad = wheels.turn_rad;
+  Eigen::Isometry3d before_from_now = Eigen::Isometry3d::Identity();
+  before_from_now.linear() =
+      Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  before_from_now.translation() =
+      wheels.distance_m * Eigen::Vector3d(std::sin(turn_rad / 2), 0, std::cos(turn_rad / 2));
+  return before_from_now;
 }
 
-double epipolar_distance(const RayPair& pair, const CameraMotion& motion) {
+double epipolar_distance(const RayPair& pair, const Eigen::Isometry3d& before_from_now) {
   // now . (R (way x before)) = 0 for a point that stands still.
-  const Eigen::Matrix3d& r = motion.now_from_before;
-  const Eigen::Vector3d line_now = r * motion.way_m.cross(pair.before);
-  const Eigen::Vector3d line_before = (r.transpose() * pair.now).cross(motion.way_m);
+  const Eigen::Matrix3d now_from_before = before_from_now.linear().transpose();
+  const Eigen::Vector3d way_m = before_from_now.translation();
+  const Eigen::Vector3d line_now = now_from_before * way_m.cross(pair.before);
+  const Eigen::Vector3d line_before = (before_from_now.linear() * pair.now).cross(way_m);
   const double scale =
       std::sqrt(line_now.head<2>().squaredNorm() + line_before.head<2>().squaredNorm());
   return scale > 0 ? pair.now.dot(line_now) / scale : 0;
 }
 
-CameraMotion refined_motion(std::span<const RayPair> pairs, const CameraMotion& start,
-                            double ray_sigma) {
+Eigen::Isometry3d refined_motion(std::span<const RayPair> pairs, const Eigen::Isometry3d& start,
+                                 double ray_sigma) {
   Correction by = Correction::Zero();
   for (int i = 0; i < kIterations; ++i) {
     Eigen::Matrix<double, 5, 5> information =
         kPriorSigmas.array().square().inverse().matrix().asDiagonal();
     Correction gradient = -information * by;
-    const CameraMotion motion = corrected(start, by);
-    std::array<CameraMotion, 5> beside;
+    const Eigen::Isometry3d motion = corrected(start, by);
+    std::array<Eigen::Isometry3d, 5> beside;
     for (int k = 0; k < 5; ++k) beside[k] = corrected(start, by + kStep * Correction::Unit(k));
     for (const RayPair& pair : pairs) {
       const double error = epipolar_distance(pair, motion) / ray_sigma;
@@ -64,8 +70,7 @@ CameraMotion refined_motion(std::span<const RayPair> pairs, const CameraMotion& 
       for (int k = 0; k < 5; ++k) {
         slope[k] = (epipolar_distance(pair, beside[k]) / ray_sigma - error) / kStep;
       }
-      // Geman and McClure's weight.
-      const double weight = 1 / std::pow(1 + error * error / 9, 2);
+      const double weight = geman_mcclure_weight(error, 3);
       information += weight * slope * slope.transpose();
       gradient -= weight * error * slope;
     }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "client/estimation/robust_weights.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -19,12 +20,6 @@ constexpr double kMinMeetingAngleRad = 0.5 * kRadPerDeg;
 double surprise(const GreatCircle& circle) {
   const double fitting_share = 2 * kMaxMisfitSigmas * circle.turn_sigma_rad / std::numbers::pi;
   return std::max(0.0, -std::log(fitting_share));
-}
-
-// Of the Geman-McClure loss, as a share of the weight at no misfit.
-double robust_weight(double misfit) {
-  const double falloff = 1 / (1 + misfit * misfit / (kMaxMisfitSigmas * kMaxMisfitSigmas / 4));
-  return falloff * falloff;
 }
 
 }  // namespace
@@ -71,7 +66,8 @@ Eigen::Vector3d refined_direction(std::span<const GreatCircle> circles,
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     for (const GreatCircle& circle : circles) {
       const double sigma = circle.sigma_rad(direction);
-      const double weight = robust_weight(circle.normal.dot(direction) / sigma);
+      const double weight =
+          geman_mcclure_weight(circle.normal.dot(direction) / sigma, kMaxMisfitSigmas / 2);
       information += weight / (sigma * sigma) * circle.normal * circle.normal.transpose();
     }
     for (const SquareTo& known : knowledge) {

@@ -78,7 +78,6 @@ StartBelief belief_of(const FindStart& start, const LocalFrame& frame) {
 
 FilterSettings filter_settings(const FinderSettings& settings, const LocalFrame& frame) {
   FilterSettings filter;
-  filter.method = settings.method;
   filter.particles = settings.particles;
   filter.seed = settings.seed;
   if (settings.start) filter.start = belief_of(*settings.start, frame);
@@ -87,7 +86,7 @@ FilterSettings filter_settings(const FinderSettings& settings, const LocalFrame&
 
 ObserverSettings observer_settings(const FinderSettings& settings) {
   ObserverSettings observer;
-  observer.with_beams = settings.method == FindMethod::combined;
+  observer.with_beams = settings.method.with_beams;
   return observer;
 }
 
@@ -110,14 +109,15 @@ struct Finder::Impl {
         frame(origin),
         walls(index_of(geographic, frame)),
         observer(view, observer_settings(settings)),
-        filter(walls, area_of(settings, walls, frame), filter_settings(settings, frame)) {}
+        filter(settings.method.make_filter(walls, area_of(settings, walls, frame),
+                                           filter_settings(settings, frame))) {}
 
   GeoPoint origin;
   LocalFrame frame;
   WallIndex walls;
   WheelLog wheels;
   WallObserver observer;
-  WallFilter filter;
+  std::unique_ptr<PlanFilter> filter;
 };
 
 Finder::Finder(std::span<const Wall> walls, const Pinhole& view, const FinderSettings& settings)
@@ -131,7 +131,7 @@ void Finder::observe(const Odometry& reading) { impl_->wheels.add(reading); }
 FindFix Finder::find(const cv::Mat& gray, double timestamp_s) {
   const WheelMotion motion = impl_->wheels.motion_until(timestamp_s);
   const WallObservation observation = impl_->observer.observe(gray, motion);
-  const Found found = impl_->filter.update(observation, motion);
+  const Found found = impl_->filter->update(observation, motion);
   const PlanPose& pose = found.mode.pose;
   const bool is_found =
       found.status == FindStatus::tracking || found.status == FindStatus::predicted;
@@ -150,7 +150,7 @@ FindFix Finder::find(const cv::Mat& gray, double timestamp_s) {
   return fix;
 }
 
-const ParticleCloud& Finder::particles() const { return impl_->filter.particles(); }
+const ParticleCloud& Finder::particles() const { return impl_->filter->particles(); }
 const WallIndex& Finder::walls() const { return impl_->walls; }
 const GeoPoint& Finder::origin() const { return impl_->origin; }
 

@@ -11,8 +11,8 @@
 #include "client/global/wall_filter.h"
 #include "client/global/wall_observer.h"
 #include "client/global/wheel_log.h"
-#include "schema/geo/camera_pose.h"
 #include "schema/geo/geodesy.h"
+#include "schema/geo/pinhole.h"
 #include "schema/tile/wall.h"
 
 namespace milepost {
@@ -26,7 +26,7 @@ struct FindStart {
 };
 
 struct FinderSettings {
-  FindMethod method = FindMethod::combined;
+  FindMethod method = combined_method();
   std::size_t particles = 2000;
   std::uint64_t seed = 1;
   std::optional<FindStart> start;  // none: anywhere in the area

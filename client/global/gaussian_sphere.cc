@@ -11,9 +11,7 @@
 namespace milepost {
 
 Eigen::Vector3d direction_of_pixel(const Pinhole& view, const Eigen::Vector2d& pixel) {
-  return Eigen::Vector3d((pixel.x() - view.principal_x_px) / view.focal_x_px,
-                         (pixel.y() - view.principal_y_px) / view.focal_y_px, 1)
-      .normalized();
+  return view.ray_of(pixel.x(), pixel.y()).normalized();
 }
 
 double GreatCircle::arc_distance_rad(const Eigen::Vector3d& direction) const {
@@ -39,6 +37,16 @@ GreatCircle great_circle(const Pinhole& view, const LineSegment& segment, const 
       std::hypot(std::numbers::sqrt2 * end_rad / length_rad, noise.bend_deg * kRadPerDeg);
   circle.shift_sigma_rad = end_rad / std::numbers::sqrt2;
   return circle;
+}
+
+std::vector<GreatCircle> great_circles(const Pinhole& view, std::span<const LineSegment> segments,
+                                       const LineNoise& noise) {
+  std::vector<GreatCircle> circles;
+  circles.reserve(segments.size());
+  for (const LineSegment& segment : segments) {
+    circles.push_back(great_circle(view, segment, noise));
+  }
+  return circles;
 }
 
 std::vector<Eigen::Vector3d> intersections(std::span<const GreatCircle> circles,

@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 
 #include "client/global/line_segments.h"
-#include "schema/geo/camera_pose.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 
@@ -44,6 +44,8 @@ struct GreatCircle {
 
 // REQUIRES: the segment's ends differ.
 GreatCircle great_circle(const Pinhole& view, const LineSegment& segment, const LineNoise& noise);
+std::vector<GreatCircle> great_circles(const Pinhole& view, std::span<const LineSegment> segments,
+                                       const LineNoise& noise);
 
 // Where the circles meet, pair by pair, one of the two opposite points each: the one with y < 0,
 // above the camera. Pairs that all but coincide, within `min_angle_rad`, are left out.

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <set>
 
+#include "client/estimation/resampling.h"
+
 namespace milepost {
 
 PlanPose uniform_pose(const PlanBox& area, Random& random) {
@@ -114,18 +116,14 @@ double effective_count(const ParticleCloud& cloud) {
 }
 
 ParticleCloud resampled(const ParticleCloud& cloud, std::size_t count, Random& random) {
-  const double step = 1.0 / static_cast<double>(count);
-  std::uniform_real_distribution<double> first(0, step);
-  double at = first(random);
-  double passed = cloud.front().weight;
-  std::size_t i = 0;
+  const double weight = 1.0 / static_cast<double>(count);
   ParticleCloud chosen;
   chosen.reserve(count);
-  while (chosen.size() < count) {
-    while (at > passed && i + 1 < cloud.size()) passed += cloud[++i].weight;
-    chosen.push_back({cloud[i].pose, step, cloud[i].wheel_scale});
-    at += step;
-  }
+  resample_systematically(
+      cloud.size(), [&](std::size_t i) { return cloud[i].weight; }, 1.0, count, random,
+      [&](std::size_t i) {
+        chosen.push_back({cloud[i].pose, weight, cloud[i].wheel_scale});
+      });
   return chosen;
 }
 

@@ -9,6 +9,8 @@
 
 #include <opencv2/features2d.hpp>
 
+#include "schema/geo/rays.h"
+
 namespace milepost {
 namespace {
 
@@ -32,13 +34,14 @@ struct SearchLine {
   Eigen::Vector2d from;
   Eigen::Vector2d way;
 
-  static std::optional<SearchLine> of(const Eigen::Vector3d& ray, const CameraMotion& motion) {
-    const Eigen::Vector3d far = motion.now_from_before * ray;
-    Eigen::Vector3d near = motion.now_from_before * (kNearestM * ray - motion.way_m);
+  static std::optional<SearchLine> of(const Eigen::Vector3d& ray,
+                                      const Eigen::Isometry3d& before_from_now) {
+    const Eigen::Isometry3d now_from_before = before_from_now.inverse();
+    const Eigen::Vector3d far = now_from_before.linear() * ray;
+    Eigen::Vector3d near = now_from_before * (kNearestM * ray);
     if (far.z() <= 0.1) return std::nullopt;
     // A point behind the camera's plane: the line goes off the image.
-    if (near.z() <= 0.1)
-      near = motion.now_from_before * ((motion.way_m.z() + 0.5) * ray - motion.way_m);
+    if (near.z() <= 0.1) near = now_from_before * ((before_from_now.translation().z() + 0.5) * ray);
     if (near.z() <= 0.1) return std::nullopt;
     return SearchLine{on_plane(far), on_plane(near) - on_plane(far)};
   }
@@ -50,32 +53,22 @@ struct SearchLine {
   }
 };
 
-// The point nearest to all sights, and the inverse of its covariance for sights of 1 rad noise.
-struct Triangulation {
-  Eigen::Vector3d point_m;
-  Eigen::Matrix3d information;
-};
-
+// The rays of all sights, each as uncertain as 1 rad of its direction.
 template <class Sights>
-std::optional<Triangulation> triangulate(const Sights& sights) {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+std::optional<MeetingRays> meeting(const Sights& sights) {
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
+  MeetingRays rays;
   for (int iteration = 0; iteration < 3; ++iteration) {
-    information.setZero();
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    rays = {};
     for (const auto& sight : sights) {
-      const double range_m = iteration == 0 ? 10 : (point - sight.from_m).norm();
-      const Eigen::Matrix3d across =
-          (Eigen::Matrix3d::Identity() - sight.direction * sight.direction.transpose()) /
-          (range_m * range_m);
-      information += across;
-      sum += across * sight.from_m;
+      const double range_m = iteration == 0 ? 10 : (point_m - sight.from_m).norm();
+      rays.add(sight.from_m, sight.direction, 1 / (range_m * range_m));
     }
-    const Eigen::LDLT<Eigen::Matrix3d> solver(information);
-    if (solver.info() != Eigen::Success || solver.vectorD().minCoeff() < 1e-12) return std::nullopt;
-    point = solver.solve(sum);
+    const auto met_m = rays.point_m();
+    if (!met_m) return std::nullopt;
+    point_m = *met_m;
   }
-  return Triangulation{point, information};
+  return rays;
 }
 
 }  // namespace
@@ -110,7 +103,7 @@ std::vector<ScenePointTracker::Feature> ScenePointTracker::features_of(const cv:
 }
 
 std::vector<ScenePointTracker::Match> ScenePointTracker::matches_of(
-    const std::vector<Feature>& features, const CameraMotion& motion) const {
+    const std::vector<Feature>& features, const Eigen::Isometry3d& before_from_now) const {
   const double reach = kSearchPx / view_.focal_px();
   const double reach2 = reach * reach;
   struct Best {
@@ -121,7 +114,7 @@ std::vector<ScenePointTracker::Match> ScenePointTracker::matches_of(
   std::vector<Best> of_feature(features.size());
   std::vector<Best> of_track(tracks_.size());
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    const auto line = SearchLine::of(tracks_[t].last.ray, motion);
+    const auto line = SearchLine::of(tracks_[t].last.ray, before_from_now);
     if (!line) continue;
     const Eigen::Vector2d to = line->from + line->way;
     const Eigen::Vector2d low = line->from.cwiseMin(to).array() - reach;
@@ -148,28 +141,29 @@ std::vector<ScenePointTracker::Match> ScenePointTracker::matches_of(
   return matches;
 }
 
-void ScenePointTracker::follow(const std::vector<Feature>& features, const CameraMotion& wheels) {
-  const std::vector<Match> matches = matches_of(features, wheels);
+void ScenePointTracker::follow(const std::vector<Feature>& features,
+                               const Eigen::Isometry3d& by_wheels) {
+  const std::vector<Match> matches = matches_of(features, by_wheels);
   std::vector<RayPair> pairs;
   pairs.reserve(matches.size());
   for (const Match& match : matches) {
     pairs.push_back({tracks_[match.track].last.ray, features[match.feature].ray});
   }
   const double ray_sigma = settings_.pixel_sigma_px / view_.focal_px();
-  const CameraMotion motion = refined_motion(pairs, wheels, ray_sigma);
-  camera_m_ += first_from_camera_ * motion.way_m;
-  first_from_camera_ = first_from_camera_ * motion.now_from_before.transpose();
+  const Eigen::Isometry3d before_from_now = refined_motion(pairs, by_wheels, ray_sigma);
+  first_from_camera_ = first_from_camera_ * before_from_now;
 
   std::vector<Track> followed(features.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    const double off_px = std::abs(epipolar_distance(pairs[i], motion)) * view_.focal_px();
+    const double off_px = std::abs(epipolar_distance(pairs[i], before_from_now)) * view_.focal_px();
     if (off_px > kAgreesPx) continue;
     followed[matches[i].feature].sights = std::move(tracks_[matches[i].track].sights);
   }
   for (std::size_t f = 0; f < features.size(); ++f) {
     Track& track = followed[f];
     track.last = features[f];
-    track.sights.push_back({camera_m_, (first_from_camera_ * features[f].ray).normalized()});
+    track.sights.push_back({first_from_camera_.translation(),
+                            (first_from_camera_.linear() * features[f].ray).normalized()});
     if (track.sights.size() > kMaxSights) track.sights.erase(track.sights.begin());
   }
   tracks_ = std::move(followed);
@@ -177,21 +171,23 @@ void ScenePointTracker::follow(const std::vector<Feature>& features, const Camer
 
 std::vector<ScenePoint> ScenePointTracker::triangulated() const {
   const double ray_sigma = settings_.pixel_sigma_px / view_.focal_px();
+  const Eigen::Isometry3d camera_from_first = first_from_camera_.inverse();
   std::vector<ScenePoint> points;
   for (const Track& track : tracks_) {
     if (track.sights.size() < 2) continue;
-    const auto found = triangulate(track.sights);
-    if (!found) continue;
-    const Eigen::Vector3d camera_m = first_from_camera_.transpose() * (found->point_m - camera_m_);
+    const auto rays = meeting(track.sights);
+    if (!rays) continue;
+    const Eigen::Vector3d point_m = *rays->point_m();
+    const Eigen::Vector3d camera_m = camera_from_first * point_m;
     if (camera_m.z() <= kNearestM / 2) continue;
     const bool agrees = std::ranges::all_of(track.sights, [&](const Sight& sight) {
-      const Eigen::Vector3d way = found->point_m - sight.from_m;
+      const Eigen::Vector3d way = point_m - sight.from_m;
       return way.dot(sight.direction) > 0 &&
              way.cross(sight.direction).norm() < 3 * ray_sigma * way.norm();
     });
     if (!agrees) continue;
-    const Eigen::Vector3d ray = (found->point_m - camera_m_).normalized();
-    const double sigma_m = ray_sigma * std::sqrt(ray.dot(found->information.ldlt().solve(ray)));
+    const Eigen::Vector3d ray = (point_m - first_from_camera_.translation()).normalized();
+    const double sigma_m = ray_sigma * std::sqrt(ray.dot(rays->information().ldlt().solve(ray)));
     if (sigma_m > settings_.max_sigma_part * camera_m.norm()) continue;
     points.push_back({camera_m, sigma_m});
   }

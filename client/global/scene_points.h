@@ -10,7 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "client/global/camera_motion.h"
-#include "schema/geo/camera_pose.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 
@@ -60,16 +60,15 @@ class ScenePointTracker {
 
   std::vector<Feature> features_of(const cv::Mat& gray) const;
   std::vector<Match> matches_of(const std::vector<Feature>& features,
-                                const CameraMotion& motion) const;
-  void follow(const std::vector<Feature>& features, const CameraMotion& wheels);
+                                const Eigen::Isometry3d& before_from_now) const;
+  void follow(const std::vector<Feature>& features, const Eigen::Isometry3d& by_wheels);
   std::vector<ScenePoint> triangulated() const;
 
   Pinhole view_;
   ScenePointSettings settings_;
   WheelMotion since_last_;  // frame that was used
-  Eigen::Matrix3d first_from_camera_ = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d camera_m_ = Eigen::Vector3d::Zero();  // in the first camera's frame
-  std::vector<Track> tracks_;                           // of the last frame's features
+  Eigen::Isometry3d first_from_camera_ = Eigen::Isometry3d::Identity();
+  std::vector<Track> tracks_;  // of the last frame's features
 };
 
 }  // namespace milepost

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
-#include "client/global/direction_search.h"
-#include "client/global/subtractive_clustering.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -13,11 +11,6 @@ namespace {
 
 const Eigen::Vector3d kCameraUp(0, -1, 0);
 
-// The paper's way. Pairs of more lines than these make clustering slow and hardly better.
-constexpr std::size_t kClusteredLines = 90;
-constexpr double kMaxArcDistanceRad = 4 * kRadPerDeg;
-
-// Ours.
 constexpr std::size_t kVotingLines = 60;
 constexpr double kMinEvidence = 20;                 // nats: six to eight good lines
 constexpr double kMinApartRad = 15 * kRadPerDeg;    // of two horizontal directions
@@ -30,33 +23,6 @@ using Directions = std::vector<VanishingDirection>;
 Eigen::Vector3d oriented(const Eigen::Vector3d& direction, Orientation orientation) {
   const bool turn = orientation == Orientation::vertical ? direction.y() > 0 : direction.z() < 0;
   return turn ? Eigen::Vector3d(-direction) : direction;
-}
-
-void add(Directions& directions, const Eigen::Vector3d& direction, Orientation orientation) {
-  directions.push_back({oriented(direction, orientation), orientation, 0});
-}
-
-Directions by_clustering(std::span<const GreatCircle> circles, const VanishingSettings& settings) {
-  const Zone pole{kCameraUp, 0, settings.max_tilt_deg * kRadPerDeg};
-  const Zone equator{kCameraUp, (90 - settings.max_tilt_deg) * kRadPerDeg, 90 * kRadPerDeg};
-  std::vector<Eigen::Vector3d> polar;
-  std::vector<Eigen::Vector3d> equatorial;
-  const auto longest = circles.first(std::min(kClusteredLines, circles.size()));
-  for (const Eigen::Vector3d& point : intersections(longest, 0.5 * kRadPerDeg)) {
-    if (pole.contains(point)) polar.push_back(point);
-    if (equator.contains(point)) equatorial.push_back(point);
-  }
-  Directions directions;
-  ClusteringSettings clustering;
-  clustering.max_centres = 1;
-  for (const auto& centre : cluster_centres(polar, clustering)) {
-    add(directions, centre, Orientation::vertical);
-  }
-  clustering.max_centres = settings.max_horizontal;
-  for (const auto& centre : cluster_centres(equatorial, clustering)) {
-    add(directions, centre, Orientation::horizontal);
-  }
-  return directions;
 }
 
 // Circles that no direction passes through.
@@ -102,13 +68,14 @@ bool apart_from_all(const Directions& directions, const Eigen::Vector3d& directi
 
 Directions by_evidence(std::span<const GreatCircle> circles, const VanishingSettings& settings) {
   Directions directions;
-  const Zone pole{kCameraUp, 0, settings.max_tilt_deg * kRadPerDeg};
+  const Zone pole = vertical_zone(settings);
   const auto vertical = strongest_direction(
       circles, kVotingLines,
       [&](const Eigen::Vector3d& direction) { return pole.contains(direction); });
-  Zone horizon{kCameraUp, (90 - settings.max_tilt_deg) * kRadPerDeg, 90 * kRadPerDeg};
+  Zone horizon = horizontal_zone(settings);
   if (vertical && evidence(circles, *vertical) >= kMinEvidence) {
-    add(directions, refined_direction(circles, {}, *vertical), Orientation::vertical);
+    directions.push_back(
+        vanishing_direction(refined_direction(circles, {}, *vertical), Orientation::vertical));
     horizon = {directions.front().direction, 90 * kRadPerDeg - kBandRad, 90 * kRadPerDeg};
   }
   for (std::size_t found = 0; found < settings.max_horizontal; ++found) {
@@ -118,28 +85,21 @@ Directions by_evidence(std::span<const GreatCircle> circles, const VanishingSett
           return horizon.contains(direction) && apart_from_all(directions, direction);
         });
     if (!strongest || evidence(rest, *strongest) < kMinEvidence) break;
-    add(directions, *strongest, Orientation::horizontal);
+    directions.push_back(vanishing_direction(*strongest, Orientation::horizontal));
     refine_together(circles, directions);
   }
   return directions;
 }
 
-// Beyond 1 the line is not of the direction.
-double relative_misfit(const GreatCircle& circle, const Eigen::Vector3d& direction,
-                       VanishingMethod method) {
-  return method == VanishingMethod::clustering
-             ? circle.arc_distance_rad(direction) / kMaxArcDistanceRad
-             : misfit_sigmas(circle, direction) / kMaxMisfitSigmas;
-}
-
-std::optional<std::size_t> class_of(const GreatCircle& circle, const Directions& directions,
-                                    VanishingMethod method) {
+std::optional<std::size_t> nearest_direction(const GreatCircle& circle,
+                                             const Directions& directions,
+                                             const RelativeMisfit& misfit) {
   std::optional<std::size_t> nearest;
   double least = 1;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const double misfit = relative_misfit(circle, directions[i].direction, method);
-    if (misfit >= least) continue;
-    least = misfit;
+    const double off = misfit(circle, directions[i].direction);
+    if (off >= least) continue;
+    least = off;
     nearest = i;
   }
   return nearest;
@@ -147,22 +107,38 @@ std::optional<std::size_t> class_of(const GreatCircle& circle, const Directions&
 
 }  // namespace
 
-VanishingDirections vanishing_directions(std::span<const LineSegment> segments, const Pinhole& view,
-                                         const VanishingSettings& settings) {
-  std::vector<GreatCircle> circles;
-  for (const LineSegment& segment : segments) {
-    circles.push_back(great_circle(view, segment, settings.noise));
-  }
-  VanishingDirections found;
-  found.directions = settings.method == VanishingMethod::clustering
-                         ? by_clustering(circles, settings)
-                         : by_evidence(circles, settings);
+Zone vertical_zone(const VanishingSettings& settings) {
+  return {kCameraUp, 0, settings.max_tilt_deg * kRadPerDeg};
+}
+
+Zone horizontal_zone(const VanishingSettings& settings) {
+  return {kCameraUp, (90 - settings.max_tilt_deg) * kRadPerDeg, 90 * kRadPerDeg};
+}
+
+VanishingDirection vanishing_direction(const Eigen::Vector3d& direction, Orientation orientation) {
+  return {oriented(direction, orientation), orientation, 0};
+}
+
+VanishingDirections with_lines(std::span<const LineSegment> segments,
+                               std::span<const GreatCircle> circles,
+                               std::vector<VanishingDirection> directions,
+                               const RelativeMisfit& misfit) {
+  VanishingDirections found{std::move(directions), {}};
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    const auto direction = class_of(circles[i], found.directions, settings.method);
+    const auto direction = nearest_direction(circles[i], found.directions, misfit);
     if (direction) ++found.directions[*direction].lines;
     found.lines.push_back({segments[i], direction});
   }
   return found;
+}
+
+VanishingDirections vanishing_directions(std::span<const LineSegment> segments, const Pinhole& view,
+                                         const VanishingSettings& settings) {
+  const std::vector<GreatCircle> circles = great_circles(view, segments, settings.noise);
+  return with_lines(segments, circles, by_evidence(circles, settings),
+                    [](const GreatCircle& circle, const Eigen::Vector3d& direction) {
+                      return misfit_sigmas(circle, direction) / kMaxMisfitSigmas;
+                    });
 }
 
 VanishingDirections vanishing_directions(const cv::Mat& gray, const Pinhole& view,

@@ -1,8 +1,10 @@
 // From an image to the directions of the edges of buildings (the aerial paper, section III): the
-// vertical, and the horizontal ones, which are the orientations of walls.
+// vertical, and the horizontal ones, which are the orientations of walls. Our way (decision 20):
+// lines vote by their noise, and the directions are refined together.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,20 +12,16 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "client/global/direction_search.h"
 #include "client/global/gaussian_sphere.h"
 #include "client/global/line_segments.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
-
-enum class VanishingMethod {
-  clustering,  // the paper's: subtractive clustering of where lines meet, classes by arc distance
-  evidence     // ours (decision 20): lines vote by their noise, directions refined together
-};
 
 enum class Orientation { vertical, horizontal };
 
 struct VanishingSettings {
-  VanishingMethod method = VanishingMethod::evidence;
   double min_length_px = 20;  // of a line segment
   double max_tilt_deg = 40;   // of the camera against the vertical, roll and pitch together
   LineNoise noise;
@@ -54,5 +52,20 @@ VanishingDirections vanishing_directions(std::span<const LineSegment> segments, 
 // REQUIRES: `gray` is CV_8UC1 and not empty.
 VanishingDirections vanishing_directions(const cv::Mat& gray, const Pinhole& view,
                                          const VanishingSettings& settings = {});
+
+// What other ways to find them share:
+// Where a vertical and where a horizontal direction may be, of a camera that is tilted no more.
+Zone vertical_zone(const VanishingSettings& settings);
+Zone horizontal_zone(const VanishingSettings& settings);
+// Turned to the side that VanishingDirection names.
+VanishingDirection vanishing_direction(const Eigen::Vector3d& direction, Orientation orientation);
+// How far a line is off a direction: from 1 on it is not of it.
+using RelativeMisfit = std::function<double(const GreatCircle&, const Eigen::Vector3d& direction)>;
+// The directions with their lines, each the one's that it misfits least. `circles` are the
+// segments' own.
+VanishingDirections with_lines(std::span<const LineSegment> segments,
+                               std::span<const GreatCircle> circles,
+                               std::vector<VanishingDirection> directions,
+                               const RelativeMisfit& misfit);
 
 }  // namespace milepost

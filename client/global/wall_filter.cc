@@ -4,20 +4,12 @@
 #include <cmath>
 
 #include "client/global/evidence.h"
-#include "client/global/orientation_importance.h"
 #include "client/global/pose_proposals.h"
 #include "client/global/wheel_errors.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
-
-// The paper, section IV.
-constexpr MotionNoise kPaperNoise{0.1, 0, 5 * kRadPerDeg};
-
-// Standing still, particles stay: noise would only spread them.
-constexpr double kStandsM = 0.01;
-constexpr double kStandsRad = 0.001;
 
 constexpr std::size_t kStartCandidates = 10;  // for each particle
 constexpr std::size_t kParticlesPerChallenger = 10;
@@ -26,15 +18,6 @@ constexpr double kFoundLead = 4;  // of log-likelihood over any other place
 constexpr double kBinM = 1;
 constexpr double kBinRad = 5 * kRadPerDeg;
 
-// Where the start is known, no other street is meant, and less way is enough.
-constexpr double kKnownStartWayM = 20;
-
-WatchSettings watch_settings(const FilterSettings& settings) {
-  WatchSettings watch = settings.watch;
-  if (settings.start) watch.found_way_m = watch.found_straight_m = kKnownStartWayM;
-  return watch;
-}
-
 }  // namespace
 
 WallFilter::WallFilter(const WallIndex& walls, const PlanBox& area, const FilterSettings& settings)
@@ -42,31 +25,25 @@ WallFilter::WallFilter(const WallIndex& walls, const PlanBox& area, const Filter
       area_(area),
       settings_(settings),
       random_(settings.seed),
-      cloud_(settings.start ? cloud_about(*settings.start, settings.particles, random_)
-                            : uniform_cloud(settings.particles, area, random_)),
+      cloud_(first_cloud(settings, area, random_)),
       watch_(watch_settings(settings)),
-      history_(settings.history),
+      history_(HistorySettings()),
       contest_(walls, area, settings.view_reach_m,
                std::max<std::size_t>(1, settings.particles / kParticlesPerChallenger)),
       is_started_(settings.start.has_value()) {
-  if (settings_.method == FindMethod::combined) {
-    draw_wheel_scales(cloud_, kWheelScaleSigma, random_);
-  }
+  draw_wheel_scales(cloud_, kWheelScaleSigma, random_);
 }
 
 Found WallFilter::update(const WallObservation& observation, const WheelMotion& motion) {
-  const bool is_ours = settings_.method == FindMethod::combined;
   way_m_ += std::abs(motion.distance_m);
-  if (std::abs(motion.distance_m) > kStandsM || std::abs(motion.turn_rad) > kStandsRad) {
-    const bool is_about_start = is_ours && settings_.start && !watch_.was_found();
-    move_cloud(cloud_, motion, is_ours ? kWheelNoise : kPaperNoise, walls_, area_,
+  if (is_moving(motion)) {
+    const bool is_about_start = settings_.start && !watch_.was_found();
+    move_cloud(cloud_, motion, kWheelNoise, walls_, area_,
                is_about_start ? Crossing::dropped : Crossing::drawn_anew, random_);
     contest_.move(motion, random_);
   }
   const bool is_sight = history_.add(observation, motion);
-  if (!is_ours) {
-    weigh_by_importance(observation);
-  } else if (!is_started_ && !observation.beams.empty() && !observation.sections.empty()) {
+  if (!is_started_ && !observation.beams.empty() && !observation.sections.empty()) {
     start_from(observation);
   } else {
     weigh_by_way(observation, std::min(way_m_, kMaxEvidenceWayM));
@@ -76,27 +53,14 @@ Found WallFilter::update(const WallObservation& observation, const WheelMotion& 
   const BeliefMode mode = densest_mode(cloud_, {});
   const FindStatus status =
       watch_.observe(mode, explained_by(mode, observation), is_rivalled(), motion);
-  if (is_ours && is_sight && !observation.sections.empty() && is_challenged()) {
+  if (is_sight && !observation.sections.empty() && is_challenged()) {
     contest_.hold(cloud_, mode.pose, observation, history_, random_);
   }
   resample();
   return {status, mode, watch_.explained()};
 }
 
-// The paper's method, which weighs every frame alike.
-void WallFilter::weigh_by_importance(const WallObservation& observation) {
-  if (observation.sections.empty()) return;
-  std::vector<double> log_likelihoods;
-  for (const Particle& particle : cloud_) {
-    // Eq. 4; a particle that explains nothing keeps a trace, so that the weights have a sum.
-    log_likelihoods.push_back(
-        std::log(1e-9 + orientation_importance(particle.pose, observation.sections, walls_,
-                                               settings_.view_reach_m)));
-  }
-  weigh_cloud(cloud_, log_likelihoods);
-}
-
-// Ours, which weighs a frame by the way driven.
+// A frame weighs by the way driven.
 void WallFilter::weigh_by_way(const WallObservation& observation, double way_m) {
   EvidenceSettings evidence;
   evidence.ranges = watch_.is_found() ? kSharpRanges : kBroadRanges;
@@ -114,20 +78,13 @@ void WallFilter::start_from(const WallObservation& observation) {
 
 std::optional<double> WallFilter::explained_by(const BeliefMode& mode,
                                                const WallObservation& observation) const {
-  if (settings_.method == FindMethod::combined) {
-    if (observation.beams.empty()) return std::nullopt;
-    return range_agreement(mode.pose, mode.wheel_scale, observation.beams, walls_, kSharpRanges)
-        .explained;
-  }
-  if (observation.sections.empty()) return std::nullopt;
-  return orientation_importance(mode.pose, observation.sections, walls_, settings_.view_reach_m);
+  if (observation.beams.empty()) return std::nullopt;
+  return range_agreement(mode.pose, mode.wheel_scale, observation.beams, walls_, kSharpRanges)
+      .explained;
 }
 
 // Whether another place explains the way behind nearly as well. Only where others are looked for.
-bool WallFilter::is_rivalled() const {
-  return settings_.method == FindMethod::combined && is_challenged() &&
-         contest_.lead() < kFoundLead;
-}
+bool WallFilter::is_rivalled() const { return is_challenged() && contest_.lead() < kFoundLead; }
 
 // What is found is doubted only when it explains less than it used to; a known start is believed.
 bool WallFilter::is_challenged() const {
@@ -136,10 +93,6 @@ bool WallFilter::is_challenged() const {
 }
 
 void WallFilter::resample() {
-  if (settings_.method == FindMethod::orientations) {
-    cloud_ = resampled(cloud_, settings_.particles, random_);
-    return;
-  }
   const std::size_t enough =
       watch_.is_found() ? std::min(settings_.particles, enough_particles(cloud_, kBinM, kBinRad))
                         : settings_.particles;
@@ -147,6 +100,14 @@ void WallFilter::resample() {
   const bool is_uneven = effective_count(cloud_) < count / 2;
   const bool are_few = cloud_.size() < enough / 2;
   if (is_uneven || are_few || cloud_.size() > enough) cloud_ = resampled(cloud_, enough, random_);
+}
+
+FindMethod combined_method() {
+  return {.with_beams = true,
+          .make_filter = [](const WallIndex& walls, const PlanBox& area,
+                            const FilterSettings& settings) -> std::unique_ptr<PlanFilter> {
+            return std::make_unique<WallFilter>(walls, area, settings);
+          }};
 }
 
 }  // namespace milepost

@@ -9,6 +9,7 @@
 #include "client/global/scene_points.h"
 #include "client/global/vanishing_directions.h"
 #include "client/global/wall_sightings.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/global/vanishing_directions.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 

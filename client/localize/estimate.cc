@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/estimation/robust_weights.h"
+
 namespace milepost {
 namespace {
-
-// Tukey's biweight: 1 at 0, falling to 0 at 1 and beyond.
-double biweight(double u) {
-  const double inside = std::max(0.0, 1 - u * u);
-  return inside * inside;
-}
 
 // Where the estimates, each as certain as its own sigma, are densest.
 double densest_along_m(const std::vector<PositionEstimate>& estimates, double width_m) {
@@ -19,8 +15,8 @@ double densest_along_m(const std::vector<PositionEstimate>& estimates, double wi
   for (const PositionEstimate& centre : estimates) {
     double votes = 0;
     for (const PositionEstimate& estimate : estimates) {
-      const double off = (estimate.along_m - centre.along_m) / width_m;
-      votes += biweight(off) / std::hypot(estimate.sigma_m, width_m);
+      votes += biweight(estimate.along_m - centre.along_m, width_m) /
+               std::hypot(estimate.sigma_m, width_m);
     }
     if (votes > highest) {
       highest = votes;
@@ -40,7 +36,7 @@ struct TrustedMean {
 };
 
 double trust_in(const PositionEstimate& estimate, double along_m, double cutoff) {
-  return biweight((estimate.along_m - along_m) / (cutoff * estimate.sigma_m));
+  return biweight(estimate.along_m - along_m, cutoff * estimate.sigma_m);
 }
 
 double weight_of(const PositionEstimate& estimate) {

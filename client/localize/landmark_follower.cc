@@ -5,8 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "client/estimation/student_t.h"
 #include "client/localize/pose_consensus.h"
-#include "client/localize/student_t.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -129,12 +129,13 @@ CameraPlacement LandmarkFollower::camera_of(const PoseBelief& belief, double sig
 std::optional<PoseEstimate> LandmarkFollower::expected_to_be(const CompactFrame& frame,
                                                              const PoseBelief& before,
                                                              const AlongRange& region) const {
-  const PoseSolver solver(search_.camera, frame.features, window_.landmarks(), method_.solver);
+  const PoseSolver solver(search_.camera.pinhole, frame.features, window_.landmarks(),
+                          method_.solver);
   PoseEstimate estimate{before, {}};
   for (int look = 0; look < 2; ++look) {
     const auto matches =
         match_expected(frame, search_.layer->parameters().codebook->step(), window_.landmarks(),
-                       region, estimate.belief, search_.camera, method_.match);
+                       region, estimate.belief, search_.camera.pinhole, method_.match);
     estimate = solver.estimate(before, estimate.belief.mean, matches);
     const auto agreeing = static_cast<double>(estimate.agreeing.size());
     if (agreeing < method_.min_support) return std::nullopt;
@@ -150,7 +151,8 @@ std::optional<PoseEstimate> LandmarkFollower::searched(const CompactFrame& frame
                                                        const AlongRange& region) const {
   const auto matches = match_anywhere(frame, search_.layer->parameters().codebook->step(),
                                       window_.landmarks(), region, method_.match);
-  const PoseSolver solver(search_.camera, frame.features, window_.landmarks(), method_.solver);
+  const PoseSolver solver(search_.camera.pinhole, frame.features, window_.landmarks(),
+                          method_.solver);
   const auto agreed = estimate_by_consensus(solver, before, matches, method_.consensus);
   if (!agreed || static_cast<int>(agreed->agreeing.size()) < search_.min_start_support)
     return std::nullopt;
@@ -158,7 +160,7 @@ std::optional<PoseEstimate> LandmarkFollower::searched(const CompactFrame& frame
   for (int look = 0; look < kSearchLooks; ++look) {
     const auto again =
         match_expected(frame, search_.layer->parameters().codebook->step(), window_.landmarks(),
-                       region, estimate.belief, search_.camera, method_.match);
+                       region, estimate.belief, search_.camera.pinhole, method_.match);
     estimate = solver.estimate(before, estimate.belief.mean, again);
     if (static_cast<int>(estimate.agreeing.size()) < search_.min_start_support) return std::nullopt;
   }
@@ -167,10 +169,11 @@ std::optional<PoseEstimate> LandmarkFollower::searched(const CompactFrame& frame
 
 PlaceSupport LandmarkFollower::support_of(const PoseEstimate& estimate,
                                           const CompactFrame& frame) const {
-  const PoseSolver solver(search_.camera, frame.features, window_.landmarks(), method_.solver);
+  const PoseSolver solver(search_.camera.pinhole, frame.features, window_.landmarks(),
+                          method_.solver);
   const double along_m = std::clamp(placed(estimate.belief).along_m, 0.0, line_.length_m());
   return milepost::support_of(estimate, along_m, frame, window_.landmarks(), solver, search_.camera,
-                              search_.image, method_.match);
+                              method_.match);
 }
 
 // How unlikely it is that the vehicle is where a frame puts it and not where it was expected, by
@@ -284,8 +287,8 @@ void LandmarkFollower::lay_origin_near() {
 void LandmarkFollower::tell(const PoseEstimate& estimate, const CompactFrame& frame) const {
   if (!search_.on_estimate) return;
   const auto estimates =
-      along_by_scale(estimate.agreeing, frame.features, window_.landmarks(), search_.camera, line_,
-                     window_.frame(), method_.solver.scale_sigma);
+      along_by_scale(estimate.agreeing, frame.features, window_.landmarks(), search_.camera.pinhole,
+                     line_, window_.frame(), method_.solver.scale_sigma);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const LandmarkMatch& match = estimate.agreeing[i];
     search_.on_estimate({estimates[i], frame.features[match.feature].scale_px,

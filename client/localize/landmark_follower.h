@@ -9,14 +9,14 @@
 #include "client/localize/landmark_window.h"
 #include "client/localize/place_evidence.h"
 #include "client/localize/pose_solver.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 
 // What a scout and its followers have in common.
 struct LandmarkSearch {
   const SegmentLayer* layer = nullptr;
-  Pinhole camera;
-  ImageSize image;
+  Camera camera;
   LandmarkMethod method;
   int min_start_support = 0;  // votes or matches that agree
   std::function<void(const TrackletEstimate&)> on_estimate;

@@ -6,6 +6,7 @@
 #include "client/localize/pose_solver.h"
 #include "schema/feature/codebook.h"
 #include "schema/feature/feature_grid.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 

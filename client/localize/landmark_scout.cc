@@ -9,15 +9,9 @@ namespace {
 
 class LandmarkScout : public Scout {
  public:
-  LandmarkScout(const SegmentLayer& layer, const QueryCamera& camera, const ScoutSettings& settings,
+  LandmarkScout(const SegmentLayer& layer, const Camera& camera, const ScoutSettings& settings,
                 const LandmarkMethod& method)
-      : search_{&layer,
-                {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px,
-                 camera.principal_y_px},
-                {camera.width_px, camera.height_px > 0 ? camera.height_px : camera.width_px},
-                method,
-                settings.min_start_support,
-                settings.on_estimate},
+      : search_{&layer, camera, method, settings.min_start_support, settings.on_estimate},
         window_(layer.key, settings.reach, layer.line) {}
 
   Looked look(SeenFrame& frame, const AlongRange& around,
@@ -50,7 +44,7 @@ class LandmarkScout : public Scout {
     const auto matches = match_anywhere(frame, search_.layer->parameters().codebook->step(),
                                         window_.landmarks(), around, method.match);
     std::vector<PositionEstimate> left =
-        along_by_scale(matches, frame.features, window_.landmarks(), search_.camera,
+        along_by_scale(matches, frame.features, window_.landmarks(), search_.camera.pinhole,
                        search_.layer->line, window_.frame(), method.solver.scale_sigma);
     std::vector<double> places;
     while (static_cast<int>(places.size()) < method.max_start_places) {
@@ -71,7 +65,7 @@ class LandmarkScout : public Scout {
 }  // namespace
 
 Method landmark_method(const LandmarkMethod& settings) {
-  const auto make_scout = [settings](const SegmentLayer& layer, const QueryCamera& camera,
+  const auto make_scout = [settings](const SegmentLayer& layer, const Camera& camera,
                                      const ScoutSettings& scout) -> Result<std::unique_ptr<Scout>> {
     if (layer.parameters().items != LayerItems::landmarks) return unusable_items(layer);
     return std::unique_ptr<Scout>(std::make_unique<LandmarkScout>(layer, camera, scout, settings));

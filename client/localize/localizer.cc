@@ -53,11 +53,11 @@ struct Scouted {
 }  // namespace
 
 struct Localizer::Impl {
-  Impl(const std::shared_ptr<MapSource>& source, const QueryCamera& query,
+  Impl(const std::shared_ptr<MapSource>& source, const Camera& query,
        const LocalizerSettings& given)
       : camera(query), settings(given), provider(source, given.method.layer, given.provider) {}
 
-  QueryCamera camera;
+  Camera camera;
   LocalizerSettings settings;
   TileProvider provider;
 
@@ -118,7 +118,7 @@ bool leads_ahead(const RouteLine& line, double along_m, const CoarsePosition& ve
 
 }  // namespace
 
-Localizer::Localizer(const std::shared_ptr<MapSource>& source, const QueryCamera& camera,
+Localizer::Localizer(const std::shared_ptr<MapSource>& source, const Camera& camera,
                      const LocalizerSettings& settings)
     : impl_(std::make_unique<Impl>(source, camera, settings)) {}
 

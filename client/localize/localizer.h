@@ -16,6 +16,7 @@
 #include "client/localize/query.h"
 #include "client/localize/receiver_evidence.h"
 #include "schema/geo/odometry.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 
@@ -38,7 +39,7 @@ struct LocalizerSettings {
 // a frame takes what has arrived, and waits for nothing.
 class Localizer {
  public:
-  Localizer(const std::shared_ptr<MapSource>& source, const QueryCamera& camera,
+  Localizer(const std::shared_ptr<MapSource>& source, const Camera& camera,
             const LocalizerSettings& settings);
   ~Localizer();
   Localizer(Localizer&&) noexcept;

@@ -9,6 +9,7 @@
 #include "client/localize/query.h"
 #include "client/localize/tile_window.h"
 #include "schema/base/result.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 
@@ -27,7 +28,7 @@ struct ScoutSettings {
 // A scout for one segment. REQUIRES: the layer outlives the scout and its followers.
 // Errors: corrupt (the layer holds other items than the method needs).
 using MakeScout = std::function<Result<std::unique_ptr<Scout>>(
-    const SegmentLayer& layer, const QueryCamera& camera, const ScoutSettings& settings)>;
+    const SegmentLayer& layer, const Camera& camera, const ScoutSettings& settings)>;
 
 struct Method {
   std::string name;

@@ -58,9 +58,9 @@ double log_mixture(const PlaceSupport& support, std::span<const Weighted> found,
   return highest + std::log(sum);
 }
 
-bool is_inside(const Eigen::Vector2d& pixel, const ImageSize& image) {
-  return pixel.x() >= kBorderPx && pixel.x() < image.width_px - kBorderPx &&
-         pixel.y() >= kBorderPx && pixel.y() < image.height_px - kBorderPx;
+bool is_inside(const Eigen::Vector2d& pixel, const Camera& camera) {
+  return pixel.x() >= kBorderPx && pixel.x() < camera.width_px - kBorderPx &&
+         pixel.y() >= kBorderPx && pixel.y() < camera.height_px - kBorderPx;
 }
 
 // Whether the frame has a feature of about that size there, be it the landmark's or another's.
@@ -82,8 +82,7 @@ bool is_textured(const CompactFrame& frame, const Eigen::Vector2d& pixel, double
 
 PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const CompactFrame& frame,
                         const std::vector<PlacedLandmark>& landmarks, const PoseSolver& solver,
-                        const Pinhole& given, const ImageSize& image,
-                        const LandmarkMatchSettings& settings) {
+                        const Camera& given, const LandmarkMatchSettings& settings) {
   struct Cell {
     int expected = 0;
     int found = 0;
@@ -94,9 +93,9 @@ PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const Comp
   const std::vector<double> off = solver.pixel_sigmas(estimate.belief.mean, estimate.agreeing);
   for (std::size_t i = 0; i < off.size(); ++i) sigmas[estimate.agreeing[i].landmark] = off[i];
   const CameraPose pose = estimate.belief.pose();
-  const Pinhole camera = estimate.belief.camera(given);
+  const Pinhole camera = estimate.belief.camera(given.pinhole);
   const Eigen::Matrix3d rotation = camera_from_enu(pose);
-  const double cell_px = image.width_px / kCellsAcross;
+  const double cell_px = given.width_px / kCellsAcross;
   PlaceSupport support;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const PlacedLandmark& landmark = landmarks[i];
@@ -104,7 +103,7 @@ PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const Comp
     const Eigen::Vector3d seen = rotation * (landmark.enu_m - pose.enu_m);
     if (!(seen.z() > kNearestSeenM)) continue;
     const Eigen::Vector2d pixel = camera.pixel_of(seen);
-    if (!is_inside(pixel, image)) continue;
+    if (!is_inside(pixel, given)) continue;
     const double scale_px = landmark.size_m * camera.focal_px() / seen.z();
     const auto found = sigmas.find(i);
     if (found == sigmas.end() && !is_textured(frame, pixel, scale_px, settings.max_log_scale))

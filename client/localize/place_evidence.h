@@ -6,6 +6,7 @@
 
 #include "client/localize/landmark_matching.h"
 #include "client/localize/pose_solver.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 
@@ -19,17 +20,11 @@ struct PlaceSupport {
   int landmarks_found = 0;
 };
 
-struct ImageSize {
-  int width_px = 0;
-  int height_px = 0;
-};
-
 // Of the landmarks mapped about where the camera is (`along_m`), those that an estimate says are in
 // the image, where the frame shows something.
 PlaceSupport support_of(const PoseEstimate& estimate, double along_m, const CompactFrame& frame,
                         const std::vector<PlacedLandmark>& landmarks, const PoseSolver& solver,
-                        const Pinhole& given, const ImageSize& image,
-                        const LandmarkMatchSettings& settings);
+                        const Camera& given, const LandmarkMatchSettings& settings);
 
 // The logarithm of how much more likely the support is from where the camera is than from
 // elsewhere. Both likelihoods are mixtures over what is not known of the frame: the share of

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "schema/geo/camera_pose.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 

@@ -5,19 +5,14 @@
 
 #include <Eigen/Dense>
 
+#include "client/estimation/robust_weights.h"
+
 namespace milepost {
 namespace {
 
 constexpr int kPoseStates = kPrincipalY + 1;  // that the image depends on
 
 using PoseRow = Eigen::Matrix<double, 1, kPoseStates>;
-
-double cauchy_weight(double sigmas, double width) { return 1 / (1 + std::pow(sigmas / width, 2)); }
-
-double biweight(double sigmas, double cutoff) {
-  const double inside = std::max(0.0, 1 - std::pow(sigmas / cutoff, 2));
-  return inside * inside;
-}
 
 // Derivatives of the factors of camera_from_enu by their angles.
 Eigen::Matrix3d level_by_heading(double heading_rad) {
@@ -91,12 +86,9 @@ bool PoseSolver::look(const View& view, const LandmarkMatch& match, Seen& at) co
   const Feature& feature = features_[match.feature];
   at.from_camera_m = landmark.enu_m - view.pose.enu_m;
   at.seen_m = view.rotation * at.from_camera_m;
-  const double z = at.seen_m.z();
-  if (!(z > kNearestSeenM)) return false;
-  const Pinhole& camera = view.camera;
-  at.pixel_by_seen << camera.focal_x_px / z, 0, -camera.focal_x_px * at.seen_m.x() / (z * z), 0,
-      camera.focal_y_px / z, -camera.focal_y_px * at.seen_m.y() / (z * z);
-  at.residual_px = Eigen::Vector2d(feature.x_px, feature.y_px) - camera.pixel_of(at.seen_m);
+  if (!(at.seen_m.z() > kNearestSeenM)) return false;
+  at.pixel_by_seen = view.camera.pixel_by_point(at.seen_m);
+  at.residual_px = Eigen::Vector2d(feature.x_px, feature.y_px) - view.camera.pixel_of(at.seen_m);
   const Eigen::Matrix<double, 2, 3> pixel_by_landmark = at.pixel_by_seen * view.rotation;
   const Eigen::Vector2d along_ray = pixel_by_landmark * landmark.mapping_ray;
   const double pixel_sigma =

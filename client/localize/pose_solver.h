@@ -12,6 +12,7 @@
 #include "client/localize/landmark_window.h"
 #include "client/localize/pose_belief.h"
 #include "schema/feature/types.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 

@@ -17,13 +17,4 @@ struct QueryFrame {
   std::function<const ImageDescriptor&()> image = {};
 };
 
-struct QueryCamera {
-  int width_px = 0;
-  int height_px = 0;  // 0: as high as wide
-  double focal_x_px = 0;
-  double focal_y_px = 0;
-  double principal_x_px = 0;
-  double principal_y_px = 0;
-};
-
 }  // namespace milepost

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "client/localize/student_t.h"
+#include "client/estimation/student_t.h"
 
 namespace milepost {
 

@@ -1,10 +1,11 @@
 #include "mapper/aerial/wall_layer.h"
 
+#include <nlohmann/json.hpp>
+
 #include "mapper/aerial/storable_walls.h"
 #include "schema/geo/geodesy.h"
 #include "schema/store/map_store.h"
 #include "schema/tile/codec.h"
-#include "schema/tile/layer_parameters.h"
 #include "schema/tile/table.h"
 
 namespace milepost {
@@ -112,7 +113,7 @@ double total_length_m(const std::vector<Wall>& walls) {
 }  // namespace
 
 Result<WallLayerReport> write_wall_layer(const fs::path& map_file, const std::vector<Wall>& walls,
-                                         const std::string& parameters_json) {
+                                         const WallLayerParameters& parameters) {
   const Result<std::vector<Wall>> storable = storable_walls(walls);
   if (!storable) return storable.error();
   if (const Status status = check_copies(*storable, map_file); !status) return status.error();
@@ -124,7 +125,10 @@ Result<WallLayerReport> write_wall_layer(const fs::path& map_file, const std::ve
     if (!old) return old.error();
     if (const Status status = copy_others(*old, *writer); !status) return status.error();
   }
-  if (const Status status = writer->add_layer(layers::kWalls, parameters_json); !status) {
+  // A file's name may be no UTF-8.
+  const std::string parameters_text =
+      to_json(parameters).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  if (const Status status = writer->add_layer(layers::kWalls, parameters_text); !status) {
     return status.error();
   }
   const std::vector<WallTile> tiles = tiles_of(*storable);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/tile/layer_parameters.h"
 #include "schema/tile/wall.h"
 
 namespace milepost {
@@ -19,11 +20,11 @@ struct WallLayerReport {
 
 // Writes a map with the walls in the layer `walls`, as storable_walls cuts them. Where `map_file`
 // exists, all else that it holds is kept and only this layer is replaced. The file appears whole
-// or not at all, and our readers take what it holds. `parameters_json` are the layer's. Errors:
+// or not at all, and our readers take what it holds. Errors:
 // corrupt (the old map), invalid_input (too many walls in one place or walls in too many, those of
 // storable_walls), io.
 Result<WallLayerReport> write_wall_layer(const std::filesystem::path& map_file,
                                          const std::vector<Wall>& walls,
-                                         const std::string& parameters_json);
+                                         const WallLayerParameters& parameters);
 
 }  // namespace milepost

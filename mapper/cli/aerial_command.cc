@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <thread>
 
-#include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
 #include "mapper/aerial/coverage.h"
@@ -17,13 +14,12 @@
 #include "mapper/aerial/footprints.h"
 #include "mapper/aerial/storable_walls.h"
 #include "mapper/aerial/wall_layer.h"
+#include "schema/base/digits.h"
 #include "schema/command/command.h"
 
 namespace milepost {
 namespace fs = std::filesystem;
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kSettings = "Settings (each changes the walls)";
 constexpr double kImageSigmaM = 0.4;      // r.m.s. of what lies within 1 m of a true outline
@@ -131,29 +127,24 @@ std::vector<Wall> all_walls(std::vector<Wall> footprints,
   return footprints;
 }
 
-std::string parameters_json(const AerialOptions& options,
-                            const std::optional<ExtractedWalls>& extracted) {
-  Json parameters = {{"items", "walls"}};
-  if (!options.footprints.empty()) {
-    parameters["footprints"] = fs::path(options.footprints).filename().string();
-  }
+WallLayerParameters parameters_of(const AerialOptions& options,
+                                  const std::optional<ExtractedWalls>& extracted) {
+  WallLayerParameters parameters;
+  parameters.footprints = fs::path(options.footprints).filename().string();
   if (extracted) {
-    parameters["image"] = options.image.file.filename().string();
-    parameters["bands"] = extracted->bands.shown;
-    if (extracted->bands.alpha != 0) parameters["alpha_band"] = extracted->bands.alpha;
-    parameters["bounds"] = {{"west_deg", extracted->bounds.west_deg},
-                            {"south_deg", extracted->bounds.south_deg},
-                            {"east_deg", extracted->bounds.east_deg},
-                            {"north_deg", extracted->bounds.north_deg}};
-    parameters["metres_per_pixel"] = options.settings.metres_per_pixel;
-    parameters["min_length_m"] = options.settings.hough.shortest_m;
-    parameters["min_roof_difference"] = options.settings.roof_edges.min_difference;
-    parameters["without"] = options.without;
-    parameters["sun"] = {{"azimuth_deg", extracted->sun.azimuth_deg},
-                         {"elevation_deg", extracted->sun.elevation_deg},
-                         {"estimated", extracted->sun_was_estimated}};
+    parameters.extracted = {.image = options.image.file.filename().string(),
+                            .bands = extracted->bands.shown,
+                            .alpha_band = extracted->bands.alpha,
+                            .bounds = extracted->bounds,
+                            .metres_per_pixel = options.settings.metres_per_pixel,
+                            .min_length_m = options.settings.hough.shortest_m,
+                            .min_roof_difference = options.settings.roof_edges.min_difference,
+                            .without = options.without,
+                            .sun_azimuth_deg = extracted->sun.azimuth_deg,
+                            .sun_elevation_deg = extracted->sun.elevation_deg,
+                            .sun_was_estimated = extracted->sun_was_estimated};
   }
-  return parameters.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return parameters;
 }
 
 // What became of a band, where it is not what the image says; else nothing.
@@ -165,17 +156,16 @@ std::string note_on_bands(const ImageBands& bands) {
 
 std::string summary_line(const AerialOptions& options, const WallLayerReport& report,
                          const std::optional<ExtractedWalls>& extracted) {
-  std::ostringstream line;
-  line << std::fixed << std::setprecision(0) << options.map << ": build " << report.build << ", "
-       << report.walls << " walls of " << report.length_m << " m in " << report.cells
-       << (report.cells == 1 ? " cell" : " cells");
+  std::string line = options.map + ": build " + report.build + ", " + std::to_string(report.walls) +
+                     " walls of " + fixed(report.length_m, 0) + " m in " +
+                     std::to_string(report.cells) + (report.cells == 1 ? " cell" : " cells");
   if (extracted) {
-    line << ", sun at azimuth " << extracted->sun.azimuth_deg << " degrees"
-         << (extracted->sun_was_estimated ? " (estimated from the shadows)" : "");
+    line += ", sun at azimuth " + fixed(extracted->sun.azimuth_deg, 0) + " degrees" +
+            (extracted->sun_was_estimated ? " (estimated from the shadows)" : "");
     const std::string note = note_on_bands(extracted->bands);
-    if (!note.empty()) line << "; " << note << " (--bands chooses)";
+    if (!note.empty()) line += "; " + note + " (--bands chooses)";
   }
-  return line.str();
+  return line;
 }
 
 constexpr const char* kAllowEmpty = "or write the map without walls by --allow-empty";
@@ -297,7 +287,7 @@ int run_aerial(const std::string& program, std::vector<std::string> words) {
     return fail(program, no_wall_in_image(options, **extracted));
   }
   const Result<WallLayerReport> report =
-      write_wall_layer(options.map, *walls, parameters_json(options, *extracted));
+      write_wall_layer(options.map, *walls, parameters_of(options, *extracted));
   if (!report) return fail(program, report.error());
   std::cout << summary_line(options, *report, *extracted) << "\n";
   return kExitDone;

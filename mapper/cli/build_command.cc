@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 #include <thread>
 
 #include <opencv2/core/utility.hpp>
 
 #include "mapper/pipeline/build_map.h"
+#include "schema/base/digits.h"
 #include "schema/base/output_file.h"
 #include "schema/command/command.h"
 #include "schema/store/map_output.h"
@@ -79,14 +78,14 @@ Status check_map_is_free(const std::vector<Drive>& drives, const std::string& ma
 }
 
 std::string summary_line(const BuildReport& report, const std::string& map) {
-  std::ostringstream line;
-  line << std::fixed << std::setprecision(1) << map << ": build " << report.build << ", "
-       << report.drives.size() << (report.drives.size() == 1 ? " segment of " : " segments of ")
-       << report.length_m << " m, " << report.frames << " frames, " << report.tracklets
-       << " tracklets (" << static_cast<double>(report.tracklets) / report.length_m
-       << " a metre) in " << report.tiles << " tiles, " << std::setprecision(2)
-       << static_cast<double>(report.tracklet_bytes) / 1000 / report.length_m << " kB/m";
-  return line.str();
+  const std::string segments = std::to_string(report.drives.size()) +
+                               (report.drives.size() == 1 ? " segment of " : " segments of ");
+  const double tracklets_a_metre = static_cast<double>(report.tracklets) / report.length_m;
+  const double kb_a_metre = static_cast<double>(report.tracklet_bytes) / 1000 / report.length_m;
+  return map + ": build " + report.build + ", " + segments + fixed(report.length_m, 1) + " m, " +
+         std::to_string(report.frames) + " frames, " + std::to_string(report.tracklets) +
+         " tracklets (" + fixed(tracklets_a_metre, 1) + " a metre) in " +
+         std::to_string(report.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m";
 }
 
 }  // namespace

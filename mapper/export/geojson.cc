@@ -6,6 +6,7 @@
 
 #include "schema/base/json.h"
 #include "schema/tile/codec.h"
+#include "schema/tile/layer_parameters.h"
 
 namespace milepost {
 namespace {
@@ -86,22 +87,15 @@ std::string layers_of(const MapReader& map) {
   return names;
 }
 
-// What the layer's tiles hold, as its parameters name it (FORMAT.md 2.4).
-std::string items_of(const std::string& parameters) {
-  const Result<Json> json = read_ordered_json(parameters);
-  if (!json || !json->is_object()) return "";
-  const auto items = json->find("items");
-  return items != json->end() && items->is_string() ? items->get<std::string>() : "";
-}
-
 Status check_holds_walls(const MapReader& map, const std::string& layer) {
   const auto found = map.layers().find(layer);
   if (found == map.layers().end()) {
     return Error{ErrorCode::not_found, map.file().string(), "the map has no layer '" + layer + "'",
                  "choose among those that it has: " + layers_of(map)};
   }
-  const std::string items = items_of(found->second);
-  if (items == "walls") return ok_status();
+  const Result<nlohmann::json> parameters = read_json(found->second);
+  const std::string items = parameters ? items_named_in(*parameters) : "";
+  if (items == kWallItems) return ok_status();
   return Error{ErrorCode::invalid_input, map.file().string(),
                "the layer '" + layer + "' does not hold walls: its items are '" + items + "'",
                "export a layer of walls, or segments"};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mapper/landmarks/pixel_track.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 

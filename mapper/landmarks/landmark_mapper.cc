@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "schema/drive/pinhole.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -42,7 +41,7 @@ LogSize log_size_of(const PixelTrack& track, const std::vector<double>& scales_p
 }  // namespace
 
 LandmarkMapper::LandmarkMapper(const Camera& camera, const LandmarkSettings& settings)
-    : camera_(pinhole_of(camera)), settings_(settings) {}
+    : camera_(camera.pinhole), settings_(settings) {}
 
 void LandmarkMapper::add_frame(const Frame& frame, double along_m) {
   frames_.push_back({along_m, frame.position, frame.heading_deg * kRadPerDeg, 0, 0});

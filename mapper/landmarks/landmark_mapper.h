@@ -8,6 +8,7 @@
 #include "mapper/landmarks/triangulation.h"
 #include "schema/drive/drive.h"
 #include "schema/geo/geodesy.h"
+#include "schema/geo/pinhole.h"
 #include "schema/tile/observation.h"
 
 namespace milepost {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "schema/geo/rays.h"
+
 namespace milepost {
 namespace {
 
@@ -10,22 +12,20 @@ constexpr double kConvergedM = 1e-4;
 
 using Jacobian = Eigen::Matrix<double, 2, 3>;
 
-// The point with the least sum of squared distances from the rays.
-Eigen::Vector3d nearest_to_rays(const PixelTrack& track, const std::vector<CameraPose>& poses,
-                                const Pinhole& camera) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+std::optional<Eigen::Vector3d> nearest_to_rays(const PixelTrack& track,
+                                               const std::vector<CameraPose>& poses,
+                                               const Pinhole& camera) {
   const Eigen::Vector3d centre = poses[track.front().frame].enu_m;
+  MeetingRays rays;
   for (const Sight& sight : track) {
     const CameraPose& pose = poses[sight.frame];
     const Eigen::Vector3d ray =
-        (camera_from_enu(pose).transpose() * camera.ray_of(sight.pixel.x(), sight.pixel.y()))
-            .normalized();
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
-    normal += across;
-    right_side += across * (pose.enu_m - centre);
+        camera_from_enu(pose).transpose() * camera.ray_of(sight.pixel.x(), sight.pixel.y());
+    rays.add(pose.enu_m - centre, ray.normalized());
   }
-  return centre + normal.ldlt().solve(right_side);
+  const auto met = rays.point_m();
+  if (!met) return std::nullopt;
+  return centre + *met;
 }
 
 // Sums of a Gauss-Newton step.
@@ -43,11 +43,7 @@ std::optional<Normal> normal_at(const Eigen::Vector3d& enu_m, const PixelTrack& 
     const Eigen::Matrix3d rotation = camera_from_enu(pose);
     const Eigen::Vector3d seen = rotation * (enu_m - pose.enu_m);
     if (!(seen.z() > kNearestSeenM)) return std::nullopt;
-    Jacobian pixel_by_seen;
-    pixel_by_seen << camera.focal_x_px / seen.z(), 0,
-        -camera.focal_x_px * seen.x() / (seen.z() * seen.z()), 0, camera.focal_y_px / seen.z(),
-        -camera.focal_y_px * seen.y() / (seen.z() * seen.z());
-    const Jacobian by_point = pixel_by_seen * rotation;
+    const Jacobian by_point = camera.pixel_by_point(seen) * rotation;
     const Eigen::Vector2d residual = sight.pixel - camera.pixel_of(seen);
     normal.matrix += by_point.transpose() * by_point;
     normal.gradient += by_point.transpose() * residual;
@@ -61,8 +57,10 @@ std::optional<Normal> normal_at(const Eigen::Vector3d& enu_m, const PixelTrack& 
 std::optional<PlacedPoint> triangulate(const PixelTrack& track,
                                        const std::vector<CameraPose>& poses, const Pinhole& camera,
                                        double pixel_sigma_px) {
+  const auto start = nearest_to_rays(track, poses, camera);
+  if (!start) return std::nullopt;
   PlacedPoint placed;
-  placed.enu_m = nearest_to_rays(track, poses, camera);
+  placed.enu_m = *start;
   std::optional<Normal> normal = normal_at(placed.enu_m, track, poses, camera);
   bool converged = false;  // towards no point where the rays are parallel
   for (int i = 0; normal && !converged && i < kMaxIterations; ++i) {

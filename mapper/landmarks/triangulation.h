@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mapper/landmarks/pixel_track.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 

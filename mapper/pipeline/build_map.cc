@@ -4,6 +4,8 @@
 #include <limits>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 #include "mapper/pipeline/frame_pipeline.h"
 #include "mapper/pipeline/layer_builder.h"
 #include "mapper/pipeline/layers.h"
@@ -145,12 +147,12 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   if (!codebook) return codebook.error();
   Result<MapWriter> map = MapWriter::create(map_file);
   if (!map) return map.error();
-  Status status = map->set_feature_json(to_json(settings.feature));
+  Status status = map->set_feature_json(to_json(settings.feature).dump());
   for (const Layer& layer : layers_of(settings)) {
     if (status.ok())
-      status = map->add_layer(
-          layer.name,
-          to_json(parameters_of(layer, drives.front().camera, *codebook, settings.tile_length_m)));
+      status = map->add_layer(layer.name, to_json(parameters_of(layer, drives.front().camera,
+                                                                *codebook, settings.tile_length_m))
+                                              .dump());
   }
   BuildReport report;
   for (std::size_t i = 0; i < plans.size() && status.ok(); ++i) {

@@ -23,8 +23,8 @@ LayerParameters parameters_of(const Layer& layer, const Camera& camera, const Co
   LayerParameters parameters;
   parameters.items = layer.items;
   parameters.tile_length_m = tile_length_m;
-  parameters.focal_x_px = camera.focal_x_px;
-  parameters.focal_y_px = camera.focal_y_px;
+  parameters.focal_x_px = camera.pinhole.focal_x_px;
+  parameters.focal_y_px = camera.pinhole.focal_y_px;
   if (layer.items == LayerItems::landmarks) parameters.codebook = codebook;
   parameters.model = layer.regression.model;
   parameters.min_r_squared = layer.regression.min_r_squared;

@@ -2,8 +2,6 @@
 // line, progress on a terminal, a clean stop on Ctrl-C.
 #pragma once
 
-#include <array>
-#include <charconv>
 #include <concepts>
 #include <functional>
 #include <iosfwd>
@@ -14,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "schema/base/digits.h"
 #include "schema/base/result.h"
 
 namespace milepost {
@@ -36,12 +35,10 @@ int run_program(const std::string& program, const std::string& description,
 // A number as people write it, as short as its type allows: 1000000, 0.04.
 template <class Number>
 std::string in_digits(Number number) {
-  std::array<char, 400> text{};  // the longest double is of 326 characters
-  char* const end = text.data() + text.size();
   if constexpr (std::integral<Number>) {
-    return {text.data(), std::to_chars(text.data(), end, number).ptr};
+    return std::to_string(number);
   } else {
-    return {text.data(), std::to_chars(text.data(), end, number, std::chars_format::fixed).ptr};
+    return shortest_fixed(number);
   }
 }
 

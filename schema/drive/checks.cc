@@ -1,10 +1,11 @@
 #include "schema/drive/checks.h"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
 #include <unordered_map>
+
+#include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
@@ -13,19 +14,6 @@ constexpr int kMaxImageSidePx = 20000;
 
 Error invalid(std::string where, std::string what, std::string mend) {
   return {ErrorCode::invalid_input, std::move(where), std::move(what), std::move(mend)};
-}
-
-// The shortest text that reads back as the same number.
-std::string text_of(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
-std::string rounded(double value, int decimals) {
-  char buffer[400];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr;
-  return {buffer, end};
 }
 
 Status check_side(int side_px, const char* key, const std::string& where) {
@@ -42,8 +30,8 @@ Status check_time(double timestamp_s, const double* previous_s, const RowPlaces&
   }
   if (previous_s == nullptr || timestamp_s > *previous_s) return ok_status();
   return invalid(rows.place(row),
-                 "timestamp_s " + text_of(timestamp_s) + " is not later than " +
-                     text_of(*previous_s) + " on line " + std::to_string(rows.lines[row - 1]),
+                 "timestamp_s " + shortest(timestamp_s) + " is not later than " +
+                     shortest(*previous_s) + " on line " + std::to_string(rows.lines[row - 1]),
                  "put the rows in the order of time, one a moment");
 }
 
@@ -85,11 +73,11 @@ Status check_filenames(const std::vector<Frame>& frames, const RowPlaces& rows) 
 
 Status check_position(const GeoPoint& position, const std::string& place) {
   if (!(std::abs(position.latitude_deg) <= 90)) {
-    return invalid(place, "latitude_deg " + text_of(position.latitude_deg) + " is out of range",
+    return invalid(place, "latitude_deg " + shortest(position.latitude_deg) + " is out of range",
                    "give a latitude from -90 to 90 degrees");
   }
   if (!(std::abs(position.longitude_deg) <= 180)) {
-    return invalid(place, "longitude_deg " + text_of(position.longitude_deg) + " is out of range",
+    return invalid(place, "longitude_deg " + shortest(position.longitude_deg) + " is out of range",
                    "give a longitude from -180 to 180 degrees");
   }
   if (!std::isfinite(position.altitude_m)) {
@@ -108,9 +96,9 @@ Status check_jump(const std::vector<Frame>& frames, const RowPlaces& rows, std::
   const double speed_mps = distance_m / elapsed_s;
   if (speed_mps <= kMaxSpeedMps) return ok_status();
   return invalid(rows.place(row),
-                 "the position jumps " + rounded(distance_m, 1) + " m from line " +
-                     std::to_string(rows.lines[row - 1]) + " in " + rounded(elapsed_s, 3) + " s: " +
-                     rounded(speed_mps, 1) + " m/s, faster than " + rounded(kMaxSpeedMps, 0),
+                 "the position jumps " + fixed(distance_m, 1) + " m from line " +
+                     std::to_string(rows.lines[row - 1]) + " in " + fixed(elapsed_s, 3) +
+                     " s: " + fixed(speed_mps, 1) + " m/s, faster than " + fixed(kMaxSpeedMps, 0),
                  "correct the positions or the times, or cut the drive in two there");
 }
 
@@ -119,13 +107,14 @@ Status check_jump(const std::vector<Frame>& frames, const RowPlaces& rows, std::
 Status check_camera(const Camera& camera, const std::string& where) {
   if (Status status = check_side(camera.width_px, "width_px", where); !status) return status;
   if (Status status = check_side(camera.height_px, "height_px", where); !status) return status;
-  for (const double focal_px : {camera.focal_x_px, camera.focal_y_px}) {
+  for (const double focal_px : {camera.pinhole.focal_x_px, camera.pinhole.focal_y_px}) {
     if (!(std::isfinite(focal_px) && focal_px > 0)) {
-      return invalid(where, "camera.focal_px holds " + text_of(focal_px),
+      return invalid(where, "camera.focal_px holds " + shortest(focal_px),
                      "give two focal lengths above 0, in pixels");
     }
   }
-  if (!std::isfinite(camera.principal_x_px) || !std::isfinite(camera.principal_y_px)) {
+  if (!std::isfinite(camera.pinhole.principal_x_px) ||
+      !std::isfinite(camera.pinhole.principal_y_px)) {
     return invalid(where, "camera.principal_px is not finite",
                    "give the image's centre, in pixels");
   }
@@ -165,7 +154,7 @@ Status check_gps(const std::vector<GpsFix>& gps, const RowPlaces& rows) {
     Status status = check_position(gps[row].position, rows.place(row));
     if (!status) return status;
     if (!(std::isfinite(gps[row].sigma_m) && gps[row].sigma_m > 0)) {
-      return invalid(rows.place(row), "sigma_m is " + text_of(gps[row].sigma_m),
+      return invalid(rows.place(row), "sigma_m is " + shortest(gps[row].sigma_m),
                      "give a standard deviation above 0, in metres");
     }
   }

@@ -102,8 +102,10 @@ Camera camera_of(KeyReader& keys, const Json& root) {
   Camera camera;
   camera.width_px = keys.side_px(object, "width_px");
   camera.height_px = keys.side_px(object, "height_px");
-  std::tie(camera.focal_x_px, camera.focal_y_px) = keys.number_pair(object, "focal_px");
-  std::tie(camera.principal_x_px, camera.principal_y_px) = keys.number_pair(object, "principal_px");
+  Pinhole& pinhole = camera.pinhole;
+  std::tie(pinhole.focal_x_px, pinhole.focal_y_px) = keys.number_pair(object, "focal_px");
+  std::tie(pinhole.principal_x_px, pinhole.principal_y_px) =
+      keys.number_pair(object, "principal_px");
   return camera;
 }
 
@@ -179,12 +181,13 @@ Result<Camera> read_camera(const fs::path& file) {
 
 Result<std::string> description_text(const Drive& drive) {
   const Camera& camera = drive.camera;
+  const Pinhole& pinhole = camera.pinhole;
   OrderedJson root;
   root["name"] = drive.name;
   root["camera"] = {{"width_px", camera.width_px},
                     {"height_px", camera.height_px},
-                    {"focal_px", {camera.focal_x_px, camera.focal_y_px}},
-                    {"principal_px", {camera.principal_x_px, camera.principal_y_px}}};
+                    {"focal_px", {pinhole.focal_x_px, pinhole.focal_y_px}},
+                    {"principal_px", {pinhole.principal_x_px, pinhole.principal_y_px}}};
   if (drive.position_frame == PositionFrame::local) {
     root["frame"] = "local";
     root["origin"] = {{"latitude_deg", drive.origin->latitude_deg},

@@ -9,19 +9,9 @@
 #include "schema/base/result.h"
 #include "schema/geo/geodesy.h"
 #include "schema/geo/odometry.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
-
-struct Camera {
-  int width_px = 0;
-  int height_px = 0;
-  double focal_x_px = 0;
-  double focal_y_px = 0;
-  double principal_x_px = 0;  // from the centre of the top left pixel
-  double principal_y_px = 0;
-
-  friend bool operator==(const Camera&, const Camera&) = default;
-};
 
 struct Frame {
   std::string filename;  // inside the drive's image folder

@@ -1,7 +1,7 @@
-#include <charconv>
 #include <numeric>
 #include <system_error>
 
+#include "schema/base/csv_text.h"
 #include "schema/base/file.h"
 #include "schema/drive/checks.h"
 #include "schema/drive/description.h"
@@ -17,69 +17,42 @@ constexpr int kGeoDecimals = 11;  // of a degree: about a micrometre
 constexpr int kAngleDecimals = 6;
 constexpr int kRateDecimals = 6;
 
-// A table of comma separated values in the making.
-class CsvText {
- public:
-  explicit CsvText(const std::vector<std::string>& columns) {
-    for (const std::string& column : columns) cell(column);
-    end_row();
-  }
-
-  void cell(const std::string& text) {
-    if (!row_.empty()) row_ += ',';
-    row_ += text;
-  }
-  // The shortest text that reads back as the same number: times keep their order.
-  void exact(double value) {
-    char buffer[32];
-    cell({buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr});
-  }
-  void fixed(double value, int decimals) {
-    char buffer[400];
-    const auto format = std::chars_format::fixed;
-    cell({buffer, std::to_chars(buffer, buffer + sizeof buffer, value, format, decimals).ptr});
-  }
-  void end_row() {
-    text_ += row_ + '\n';
-    row_.clear();
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string row_;
-  std::string text_;
-};
+std::string header_of(const std::vector<std::string>& columns) {
+  std::string header = columns.front();
+  for (std::size_t i = 1; i < columns.size(); ++i) header += ',' + columns[i];
+  return header;
+}
 
 std::string trajectory_text(const Drive& drive) {
   const bool is_local = drive.position_frame == PositionFrame::local;
   std::optional<LocalFrame> local;
   if (is_local) local.emplace(*drive.origin);
-  CsvText csv(is_local ? kLocalColumns : kGeographicColumns);
+  CsvText csv(header_of(is_local ? kLocalColumns : kGeographicColumns));
   for (const Frame& frame : drive.frames) {
     csv.cell(frame.filename);
     csv.exact(frame.timestamp_s);
     if (local) {
       const EnuPoint enu = local->enu_from_geo(frame.position);
-      csv.fixed(enu.east_m, kMetreDecimals);
-      csv.fixed(enu.north_m, kMetreDecimals);
-      csv.fixed(enu.up_m, kMetreDecimals);
+      csv.rounded(enu.east_m, kMetreDecimals);
+      csv.rounded(enu.north_m, kMetreDecimals);
+      csv.rounded(enu.up_m, kMetreDecimals);
     } else {
-      csv.fixed(frame.position.latitude_deg, kGeoDecimals);
-      csv.fixed(frame.position.longitude_deg, kGeoDecimals);
-      csv.fixed(frame.position.altitude_m, kMetreDecimals);
+      csv.rounded(frame.position.latitude_deg, kGeoDecimals);
+      csv.rounded(frame.position.longitude_deg, kGeoDecimals);
+      csv.rounded(frame.position.altitude_m, kMetreDecimals);
     }
-    csv.fixed(frame.heading_deg, kAngleDecimals);
+    csv.rounded(frame.heading_deg, kAngleDecimals);
     csv.end_row();
   }
   return csv.text();
 }
 
 std::string gps_text(const Drive& drive) {
-  CsvText csv(kGpsColumns);
+  CsvText csv(header_of(kGpsColumns));
   for (const GpsFix& fix : drive.gps) {
     csv.exact(fix.timestamp_s);
-    csv.fixed(fix.position.latitude_deg, kGeoDecimals);
-    csv.fixed(fix.position.longitude_deg, kGeoDecimals);
+    csv.rounded(fix.position.latitude_deg, kGeoDecimals);
+    csv.rounded(fix.position.longitude_deg, kGeoDecimals);
     csv.exact(fix.sigma_m);
     csv.end_row();
   }
@@ -87,11 +60,11 @@ std::string gps_text(const Drive& drive) {
 }
 
 std::string odometry_text(const Drive& drive) {
-  CsvText csv(kOdometryColumns);
+  CsvText csv(header_of(kOdometryColumns));
   for (const Odometry& reading : drive.odometry) {
     csv.exact(reading.timestamp_s);
-    csv.fixed(reading.speed_mps, kRateDecimals);
-    csv.fixed(reading.yaw_rate_dps, kRateDecimals);
+    csv.rounded(reading.speed_mps, kRateDecimals);
+    csv.rounded(reading.yaw_rate_dps, kRateDecimals);
     csv.end_row();
   }
   return csv.text();

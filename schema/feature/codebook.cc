@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "schema/base/json.h"
+#include <nlohmann/json.hpp>
+
 #include "schema/feature/root_sift.h"
 
 namespace milepost {
@@ -81,16 +82,11 @@ CompactDescriptor Codebook::compact(const Descriptor& descriptor) const {
   return compact;
 }
 
-std::string Codebook::to_json() const {
-  const nlohmann::ordered_json object = {
-      {"step", step_}, {"mean", base64_from(mean_)}, {"axes", base64_from(axes_)}};
-  return object.dump();
+nlohmann::ordered_json Codebook::to_json() const {
+  return {{"step", step_}, {"mean", base64_from(mean_)}, {"axes", base64_from(axes_)}};
 }
 
-Result<Codebook> Codebook::from_json(const std::string& text) {
-  Result<nlohmann::json> json = read_json(text);
-  if (!json) return corrupt_codebook(json.error().what);
-  nlohmann::json& object = *json;
+Result<Codebook> Codebook::from_json(nlohmann::json object) {
   if (!object.is_object()) return corrupt_codebook("it is not a JSON object");
   const auto step = object.find("step");
   if (step == object.end() || !step->is_number()) {

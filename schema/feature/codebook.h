@@ -8,6 +8,8 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "schema/base/result.h"
 #include "schema/feature/descriptor.h"
 
@@ -34,8 +36,8 @@ class Codebook {
 
   // A JSON object; from_json(to_json()) gives the same codebook to the bit.
   // Errors: corrupt (a missing key, a wrong length, a value out of range).
-  std::string to_json() const;
-  static Result<Codebook> from_json(const std::string& text);
+  nlohmann::ordered_json to_json() const;
+  static Result<Codebook> from_json(nlohmann::json object);
 
   // Saturates where a coordinate is beyond 8 bits. Sums whole numbers: the same on every machine.
   CompactDescriptor compact(const Descriptor& descriptor) const;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "schema/base/json.h"
+#include <nlohmann/json.hpp>
 
 namespace milepost {
 namespace {
@@ -29,20 +29,17 @@ Status take(nlohmann::json& object, const char* key, double low, double high, Nu
 
 }  // namespace
 
-std::string to_json(const FeatureParameters& parameters) {
-  const nlohmann::ordered_json object = {{"kind", "sift"},
-                                         {"max_features", parameters.max_features},
-                                         {"octave_layers", parameters.octave_layers},
-                                         {"contrast_threshold", parameters.contrast_threshold},
-                                         {"edge_threshold", parameters.edge_threshold},
-                                         {"sigma", parameters.sigma}};
-  return object.dump();
+nlohmann::ordered_json to_json(const FeatureParameters& parameters) {
+  return {{"kind", "sift"},
+          {"max_features", parameters.max_features},
+          {"octave_layers", parameters.octave_layers},
+          {"contrast_threshold", parameters.contrast_threshold},
+          {"edge_threshold", parameters.edge_threshold},
+          {"sigma", parameters.sigma}};
 }
 
-Result<FeatureParameters> feature_parameters_from_json(const std::string& text) {
-  Result<nlohmann::json> json = read_json(text);
-  if (!json) return corrupt_parameters(json.error().what);
-  nlohmann::json& object = *json;
+Result<FeatureParameters> feature_parameters_from_json(const nlohmann::json& json) {
+  nlohmann::json object = json;  // what is taken is erased, so that what is left is unknown
   if (!object.is_object()) return corrupt_parameters("they are not a JSON object");
   if (!object.contains("kind") || object["kind"] != "sift") {
     return corrupt_parameters("their kind is not 'sift'");

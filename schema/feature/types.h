@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "schema/base/result.h"
 #include "schema/feature/descriptor.h"
 
@@ -40,7 +42,7 @@ struct FeatureParameters {
 
 // A JSON object with "kind": "sift" and one key a parameter; from_json rejects another kind, an
 // unknown or missing key, and values out of range. Errors: corrupt.
-std::string to_json(const FeatureParameters& parameters);
-Result<FeatureParameters> feature_parameters_from_json(const std::string& text);
+nlohmann::ordered_json to_json(const FeatureParameters& parameters);
+Result<FeatureParameters> feature_parameters_from_json(const nlohmann::json& json);
 
 }  // namespace milepost

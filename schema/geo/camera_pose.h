@@ -1,9 +1,10 @@
-// Where a camera is and how it looks, and the image of a point (FRAMES.md 4 and 7).
+// Where a camera is and how it looks (FRAMES.md 4 and 7).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace milepost {
 
@@ -71,29 +72,25 @@ typename CameraPoseOf<Scalar>::Vector3 seen_from(
   return camera_from_enu(pose) * (point_enu_m - pose.enu_m);
 }
 
-inline constexpr double kNearestSeenM = 0.5;  // what is nearer to the camera's plane is not seen
+// From the camera's frame (x right, y down, z forward) to the tangent frame.
+inline Eigen::Isometry3d enu_from_camera(const CameraPose& pose) {
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  transform.linear() = camera_from_enu(pose).transpose();
+  transform.translation() = pose.enu_m;
+  return transform;
+}
 
-// A camera without distortion.
-struct Pinhole {
-  double focal_x_px = 0;
-  double focal_y_px = 0;
-  double principal_x_px = 0;
-  double principal_y_px = 0;
-
-  // By which scale and depth are related.
-  double focal_px() const { return std::sqrt(focal_x_px * focal_y_px); }
-
-  // REQUIRES: the point lies before the camera.
-  template <class Scalar>
-  Eigen::Matrix<Scalar, 2, 1> pixel_of(const Eigen::Matrix<Scalar, 3, 1>& camera_m) const {
-    return {Scalar(principal_x_px) + Scalar(focal_x_px) * camera_m.x() / camera_m.z(),
-            Scalar(principal_y_px) + Scalar(focal_y_px) * camera_m.y() / camera_m.z()};
-  }
-
-  // The direction that a pixel looks in, with z = 1.
-  Eigen::Vector3d ray_of(double x_px, double y_px) const {
-    return {(x_px - principal_x_px) / focal_x_px, (y_px - principal_y_px) / focal_y_px, 1};
-  }
-};
+// The pose that it is of. REQUIRES: the camera does not look straight up or down.
+inline CameraPose pose_of(const Eigen::Isometry3d& enu_from_camera) {
+  const Eigen::Vector3d right = enu_from_camera.linear().col(0);
+  const Eigen::Vector3d forward = enu_from_camera.linear().col(2);
+  CameraPose pose;
+  pose.enu_m = enu_from_camera.translation();
+  pose.heading_rad = std::atan2(forward.x(), forward.y());
+  pose.pitch_rad = std::asin(std::clamp(forward.z(), -1.0, 1.0));
+  const Eigen::Matrix3d unrolled = camera_from_enu(pose);
+  pose.roll_rad = std::atan2(unrolled.row(1).dot(right), unrolled.row(0).dot(right));
+  return pose;
+}
 
 }  // namespace milepost

@@ -38,7 +38,7 @@ struct TileEntry {
   AlongRange along;         // holds every item's along range
   std::uint64_t items = 0;  // tracklets, for the layers of tracklets
   std::uint64_t bytes = 0;
-  std::string digest;  // of the stored frame
+  std::string digest;  // of the encoded tile
 
   friend bool operator==(const TileEntry& a, const TileEntry& b) {
     return a.index == b.index && a.digest == b.digest;
@@ -50,7 +50,7 @@ struct CellEntry {
   std::uint32_t cell = 0;  // is_cell
   std::uint64_t items = 0;
   std::uint64_t bytes = 0;
-  std::string digest;  // of the stored frame
+  std::string digest;  // of the encoded tile
 
   friend bool operator==(const CellEntry& a, const CellEntry& b) {
     return a.cell == b.cell && a.digest == b.digest;
@@ -85,14 +85,14 @@ class MapReader {
   // there, and now and then one with a gap between its items there. REQUIRES: no NaN in `range`.
   Result<std::vector<TileEntry>> tiles_in(const std::string& segment, const std::string& layer,
                                           const AlongRange& range) const;
-  // The stored frame of one tile, as it lies in the file.
+  // One encoded tile, as it lies in the file.
   Result<Bytes> tile(const std::string& segment, const std::string& layer,
                      std::uint32_t index) const;
   // The index of every cell of the layer, ascending; empty for a layer of segments.
   Result<std::vector<CellEntry>> cell_index(const std::string& layer) const;
   // The cells of the index that meet the box, ascending.
   Result<std::vector<CellEntry>> cells_in(const std::string& layer, const Bounds& box) const;
-  // The stored frame of one cell, as it lies in the file.
+  // The encoded tile of one cell, as it lies in the file.
   Result<Bytes> cell(const std::string& layer, std::uint32_t number) const;
   // Reads every byte: SQLite's integrity check, every tile's and cell's digest, the build. Errors:
   // corrupt, io.

@@ -1,7 +1,7 @@
 #include "schema/tile/codec.h"
 
-#include "schema/tile/frame.h"
 #include "schema/tile/table.h"
+#include "schema/tile/zstd_frame.h"
 
 namespace milepost {
 namespace {

@@ -12,7 +12,7 @@
 
 namespace milepost {
 
-// The stored frame of a tile: the same tile gives the same bytes.
+// Encodes a tile: the same one gives the same bytes.
 // REQUIRES: every item satisfies the ranges of FORMAT.md (checked in decode).
 Bytes encode_tile(const TrackletTile& tile);
 Bytes encode_observations(const ObservationTile& tile);
@@ -20,7 +20,7 @@ Bytes encode_frames(const FrameTile& tile);
 Bytes encode_landmarks(const LandmarkTile& tile);
 Bytes encode_walls(const WallTile& tile);
 
-// The tile of one stored frame. Never trusts a byte. Errors: corrupt, naming the paragraph broken.
+// Decodes one. Never trusts a byte. Errors: corrupt, naming the paragraph broken.
 Result<TrackletTile> decode_tile(ByteView frame);
 Result<ObservationTile> decode_observations(ByteView frame);
 Result<FrameTile> decode_frames(ByteView frame);

@@ -49,6 +49,12 @@ Error broken_tile(const std::string& where, const std::string& what, const std::
 Status check_head(std::string_view segment, double origin_m);
 Status check_model(std::uint8_t model);
 
+// "tile SEGMENT/INDEX", for messages about a tile along a segment.
+template <class Table>
+std::string place_of(const Table& table) {
+  return "tile " + table.segment()->str() + "/" + std::to_string(table.index());
+}
+
 struct NamedLength {
   const char* name;
   std::size_t length;

@@ -137,7 +137,7 @@ Result<FrameTile> frames_from_table(ByteView bytes) {
   const fbs::FrameTile& table = *fbs::GetSizePrefixedFrameTile(bytes.data());
   Status status = check_head(table.segment()->string_view(), table.origin_m());
   if (!status.ok()) return status.error();
-  const std::string where = "tile " + table.segment()->str() + "/" + std::to_string(table.index());
+  const std::string where = place_of(table);
   status = check_arrays(table, where);
   if (!status.ok()) return status.error();
 

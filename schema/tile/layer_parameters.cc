@@ -1,6 +1,6 @@
 #include "schema/tile/layer_parameters.h"
 
-#include "schema/base/json.h"
+#include <nlohmann/json.hpp>
 
 namespace milepost {
 namespace {
@@ -11,26 +11,50 @@ Error corrupt(const std::string& what) {
 
 }  // namespace
 
-std::string to_json(const LayerParameters& parameters) {
+nlohmann::ordered_json to_json(const LayerParameters& parameters) {
   nlohmann::ordered_json json = {{"items", name_of(parameters.items)}};
   if (parameters.codebook) {
-    json["codebook"] = nlohmann::ordered_json::parse(parameters.codebook->to_json());
+    json["codebook"] = parameters.codebook->to_json();
   } else if (parameters.items != LayerItems::frames) {
     json["model"] = parameters.model == ScaleModel::scale ? "scale" : "inverse-scale";
     json["min_r_squared"] = parameters.min_r_squared;
   }
   json["tile_length_m"] = parameters.tile_length_m;
   json["focal_px"] = {parameters.focal_x_px, parameters.focal_y_px};
-  return json.dump();
+  return json;
 }
 
-Result<LayerParameters> layer_parameters_from_json(const std::string& text) {
-  const Result<nlohmann::json> parsed = read_json(text);
-  if (!parsed) return corrupt("its parameters: " + parsed.error().what);
-  if (!parsed->is_object()) return corrupt("its parameters are no JSON object");
-  const nlohmann::json& json = *parsed;
-  const auto named = json.value("items", nlohmann::json());
-  const auto items = layer_items_named(named.is_string() ? named.get<std::string>() : "");
+nlohmann::ordered_json to_json(const WallLayerParameters& parameters) {
+  nlohmann::ordered_json json = {{"items", kWallItems}};
+  if (!parameters.footprints.empty()) json["footprints"] = parameters.footprints;
+  if (const auto& from = parameters.extracted) {
+    json["image"] = from->image;
+    json["bands"] = from->bands;
+    if (from->alpha_band != 0) json["alpha_band"] = from->alpha_band;
+    json["bounds"] = {{"west_deg", from->bounds.west_deg},
+                      {"south_deg", from->bounds.south_deg},
+                      {"east_deg", from->bounds.east_deg},
+                      {"north_deg", from->bounds.north_deg}};
+    json["metres_per_pixel"] = from->metres_per_pixel;
+    json["min_length_m"] = from->min_length_m;
+    json["min_roof_difference"] = from->min_roof_difference;
+    json["without"] = from->without;
+    json["sun"] = {{"azimuth_deg", from->sun_azimuth_deg},
+                   {"elevation_deg", from->sun_elevation_deg},
+                   {"estimated", from->sun_was_estimated}};
+  }
+  return json;
+}
+
+std::string items_named_in(const nlohmann::json& parameters) {
+  if (!parameters.is_object()) return "";
+  const auto items = parameters.find("items");
+  return items != parameters.end() && items->is_string() ? items->get<std::string>() : "";
+}
+
+Result<LayerParameters> layer_parameters_from_json(const nlohmann::json& json) {
+  if (!json.is_object()) return corrupt("its parameters are no JSON object");
+  const auto items = layer_items_named(items_named_in(json));
   if (!items) return corrupt("its items are unknown");
   const auto focal = json.value("focal_px", nlohmann::json());
   const bool two_numbers =
@@ -43,8 +67,7 @@ Result<LayerParameters> layer_parameters_from_json(const std::string& text) {
   const double focal_px = parameters.focal_px();
   if (!(focal_px > 0 && std::isfinite(focal_px))) return corrupt("focal_px is out of range");
   if (*items == LayerItems::landmarks) {
-    const Result<Codebook> codebook =
-        Codebook::from_json(json.value("codebook", nlohmann::json()).dump());
+    const Result<Codebook> codebook = Codebook::from_json(json.value("codebook", nlohmann::json()));
     if (!codebook) return corrupt("its codebook: " + codebook.error().what);
     parameters.codebook = *codebook;
   }

@@ -5,7 +5,11 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "schema/base/cell_grid.h"
 #include "schema/base/result.h"
 #include "schema/feature/codebook.h"
 #include "schema/tile/layer_items.h"
@@ -40,11 +44,36 @@ struct LayerParameters {
   double focal_px() const { return std::sqrt(focal_x_px * focal_y_px); }
 };
 
-// A JSON object.
-std::string to_json(const LayerParameters& parameters);
+nlohmann::ordered_json to_json(const LayerParameters& parameters);
 
 // What a client needs of it: items, focal lengths, and of landmarks the codebook; keys that it does
 // not know are left alone. Errors: corrupt, without a place.
-Result<LayerParameters> layer_parameters_from_json(const std::string& text);
+Result<LayerParameters> layer_parameters_from_json(const nlohmann::json& json);
+
+// Of a layer of walls, whose tiles are cells of an area: where they come from. For people; a client
+// needs none of it.
+struct WallLayerParameters {
+  struct Orthoimage {
+    std::string image;            // the file's name
+    std::vector<int> bands = {};  // shown, from 1
+    int alpha_band = 0;           // 0: none
+    Bounds bounds = {};
+    double metres_per_pixel = 0;
+    double min_length_m = 0;
+    double min_roof_difference = 0;
+    std::vector<std::string> without = {};  // stages left out
+    double sun_azimuth_deg = 0;
+    double sun_elevation_deg = 0;
+    bool sun_was_estimated = false;
+  };
+  std::string footprints = {};  // the file's name; empty: none
+  std::optional<Orthoimage> extracted = {};
+};
+
+nlohmann::ordered_json to_json(const WallLayerParameters& parameters);
+
+// What the tiles of a layer hold, as its parameters name it; empty where they do not.
+std::string items_named_in(const nlohmann::json& parameters);
+inline constexpr const char* kWallItems = "walls";
 
 }  // namespace milepost

@@ -113,7 +113,7 @@ Result<TrackletTile> tile_from_table(ByteView bytes) {
   Status status = check_head(table.segment()->string_view(), table.origin_m());
   if (status.ok()) status = check_model(static_cast<std::uint8_t>(table.model()));
   if (!status.ok()) return status.error();
-  const std::string where = "tile " + table.segment()->str() + "/" + std::to_string(table.index());
+  const std::string where = place_of(table);
   status = check_arrays(table, where);
   if (!status.ok()) return status.error();
 

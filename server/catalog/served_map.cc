@@ -15,8 +15,8 @@ Result<RouteLine> line_of(const StoredSegment& segment) {
 }
 
 // The store has checked the digest. The length was promised to the client before.
-Result<Bytes> of_length(Result<Bytes> frame, std::uint64_t bytes, const std::string& where) {
-  if (!frame || frame->size() == bytes) return frame;
+Result<Bytes> of_length(Result<Bytes> tile, std::uint64_t bytes, const std::string& where) {
+  if (!tile || tile->size() == bytes) return tile;
   return Error{ErrorCode::corrupt, where, "the length is not the one in the index",
                "replace the file by a good copy, or build the map anew"};
 }

@@ -39,8 +39,8 @@ class ServedMap {
   const Document& areas() const { return areas_; }  // the index of the cells
   const Bounds& box() const { return box_; }        // of all segments' lines
 
-  // The stored frame of a tile, checked against its entry in the index.
-  // Errors: corrupt (the frame is not the one of the index), io.
+  // An encoded tile, checked against its entry in the index.
+  // Errors: corrupt (it is not the one of the index), io.
   Result<Bytes> tile(const std::string& segment, const std::string& layer,
                      const TileEntry& entry) const;
   // The same for a cell.

@@ -11,7 +11,6 @@
 #include "client/global/finder.h"
 #include "mapper/aerial/footprints.h"
 #include "schema/drive/frame_image.h"
-#include "schema/drive/pinhole.h"
 #include "tests/bench/timing.h"
 
 namespace {
@@ -36,7 +35,7 @@ int main(int argc, char** argv) {
   if (!drive) return fail(drive.error());
   FinderSettings settings;
   if (argc > 3) settings.particles = std::strtoul(argv[3], nullptr, 10);
-  Finder finder(footprints->walls, pinhole_of(drive->camera), settings);
+  Finder finder(footprints->walls, drive->camera.pinhole, settings);
 
   cv::setNumThreads(1);
   const auto segments = cv::createLineSegmentDetector();

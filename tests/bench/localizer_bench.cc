@@ -61,10 +61,9 @@ int main(int argc, char** argv) {
   if (!source) return fail(source.error());
   LocalizerSettings localizer_settings;
   localizer_settings.method = *method;
-  const QueryCamera query_camera = query_camera_of(query->camera);
   const std::shared_ptr<MapSource> shared_source = std::move(*source);
-  Localizer localizer(shared_source, query_camera, localizer_settings);
-  Localizer searcher(shared_source, query_camera, localizer_settings);  // finds nothing
+  Localizer localizer(shared_source, query->camera, localizer_settings);
+  Localizer searcher(shared_source, query->camera, localizer_settings);  // finds nothing
 
   const FeatureParameters& feature = settings.feature;
   const auto sift =

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "schema/base/json.h"
 #include "schema/feature/codebook.h"
 #include "schema/feature/types.h"
 #include "tests/fuzz/check.h"
@@ -16,15 +17,11 @@ using namespace milepost;
 
 const MapVersion kVersion{"town", "00112233445566778899aabbccddeeff"};
 
-// What a map document gives is read on where the vehicle opens a segment.
+// With the parameters of its features and layers.
 void read_map(std::string_view text) {
   const Result<MapDescription> map = parse_map_document(text, "fuzz", "town");
   if (!map) return;
-  static_cast<void>(feature_parameters_from_json(map->feature_json));
-  for (const auto& [name, parameters] : map->layers) {
-    fuzz::check(!name.empty());
-    static_cast<void>(Codebook::from_json(parameters));
-  }
+  for (const auto& [name, parameters] : map->layers) fuzz::check(!name.empty());
 }
 
 void read_segment(std::string_view text) {
@@ -48,6 +45,7 @@ void read_areas(std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const Result<nlohmann::json> json = read_json(text);
   switch (data[0]) {
     case 'c':
       static_cast<void>(parse_catalog_document(text, "fuzz"));
@@ -65,10 +63,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       read_areas(text);
       break;
     case 'f':
-      static_cast<void>(feature_parameters_from_json(std::string(text)));
+      if (json) static_cast<void>(feature_parameters_from_json(*json));
       break;
     case 'b':
-      static_cast<void>(Codebook::from_json(std::string(text)));
+      if (json) static_cast<void>(Codebook::from_json(*json));
       break;
     default:
       break;

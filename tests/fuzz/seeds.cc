@@ -8,11 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "schema/base/file.h"
 #include "schema/feature/types.h"
 #include "schema/store/sqlite.h"
 #include "schema/tile/codec.h"
-#include "schema/tile/frame.h"
+#include "schema/tile/zstd_frame.h"
 #include "tests/client/fetch/fake_map.h"
 #include "tests/schema/tile/example_landmarks.h"
 #include "tests/schema/tile/example_tile.h"
@@ -96,18 +98,18 @@ void write_documents(const SeedFolder& seeds) {
   seeds.write("documents", "map", "m" + map.map_document());
   seeds.write("documents", "segment", "s" + map.segment_document());
   seeds.write("documents", "areas", "a" + map.areas_document());
-  seeds.write("documents", "feature", "f" + to_json(FeatureParameters{}));
+  seeds.write("documents", "feature", "f" + to_json(FeatureParameters{}).dump());
   // A codebook whose bytes are all zero, in base64.
   seeds.write("documents", "codebook",
               R"(b{"step":0.02,"mean":")" + std::string(171, 'A') + R"(=","axes":")" +
                   std::string(5462, 'A') + R"(=="})");
 }
 
-// A tile as its stored frame, and its content as target `tiles` takes it.
-void write_tile(const SeedFolder& seeds, char kind, const Bytes& frame) {
+// An encoded tile, and its content as target `tiles` takes it.
+void write_tile(const SeedFolder& seeds, char kind, const Bytes& encoded) {
   seeds.write("tiles", std::string("stored-") + kind,
-              std::string(1, static_cast<char>(kind - 'a' + 'A')) + std::string(as_text(frame)));
-  const Result<Bytes> content = expand_frame(frame);
+              std::string(1, static_cast<char>(kind - 'a' + 'A')) + std::string(as_text(encoded)));
+  const Result<Bytes> content = expand_frame(encoded);
   seeds.write("tiles", std::string("content-") + kind,
               std::string(1, kind) + std::string(as_text(*content)));
 }

@@ -1,4 +1,4 @@
-// The tile decoders. The first byte chooses one. A capital gets the bytes as a stored frame; a
+// The tile decoders. The first byte chooses one. A capital gets the bytes as an encoded tile; a
 // small letter gets them as its content, which zstd's checksum would otherwise shield.
 #include <cstdint>
 

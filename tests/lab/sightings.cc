@@ -92,7 +92,6 @@ int main(int argc, char** argv) {
   const Result<Drive> drive = read_drive(argv[2]);
   if (!drive) return fail(drive.error());
   const Method method = landmark_method();
-  const QueryCamera query_camera = query_camera_of(drive->camera);
   std::ofstream out(argv[4]);
   out << "filename,segment,along_m,latitude_deg,longitude_deg,matches,log_bayes_factor,"
          "lateral_m,up_m,turned_deg\n";
@@ -101,7 +100,7 @@ int main(int argc, char** argv) {
   const FrameReader frames(*drive);
   for (const auto& [key, segment] : (*held)->segments) {
     if (!segment->layer) return fail(*segment->failure);
-    const auto scout = method.make_scout(*segment->layer, query_camera, ScoutSettings());
+    const auto scout = method.make_scout(*segment->layer, drive->camera, ScoutSettings());
     if (!scout) return fail(scout.error());
     FeatureExtractor extractor(segment->layer->feature());
     for (std::size_t i = 0; i < drive->frames.size(); i += every) {

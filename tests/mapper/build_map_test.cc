@@ -80,7 +80,7 @@ TEST(BuildMap, TheDefaultMapHoldsLandmarksAndTheirCodebook) {
   EXPECT_EQ(parameters.at("items"), "landmarks");
   EXPECT_EQ(parameters.at("tile_length_m"), 20);
   EXPECT_EQ(parameters.at("focal_px"), json({178.75, 200.05}));
-  const Result<Codebook> codebook = Codebook::from_json(parameters.at("codebook").dump());
+  const Result<Codebook> codebook = Codebook::from_json(parameters.at("codebook"));
   ASSERT_TRUE(codebook.ok()) << codebook.error().line();
   EXPECT_EQ(codebook->step(), BuildSettings{}.codebook_step);
   EXPECT_FALSE(parameters.contains("model"));

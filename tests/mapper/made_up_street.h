@@ -10,7 +10,7 @@
 
 namespace milepost::testing {
 
-inline constexpr Camera kStreetCamera{600, 500, 360, 400, 300, 250};
+inline constexpr Camera kStreetCamera{600, 500, {360, 400, 300, 250}};
 inline constexpr Pinhole kStreetPinhole{360, 400, 300, 250};
 inline constexpr double kFrameSpacingM = 1.97;  // no whole number of a tile's steps
 

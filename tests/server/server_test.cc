@@ -521,7 +521,7 @@ TEST_F(ServerTest, AcceptingGoesOnAfterErrors) {
   EXPECT_EQ(connection.receive().status, 200);
 }
 
-// Damages the stored frame of tile `index` in the file that the server has open.
+// Damages the encoded tile of tile `index` in the file that the server has open.
 void damage_tile(const std::filesystem::path& file, int index) {
   auto database = sqlite::Database::open(file, sqlite::Access::read_write);
   const Status damaged = database->execute(

@@ -36,7 +36,7 @@ struct TownMap {
   std::vector<Bytes> cells;   // of kTownCells
 };
 
-// Writes the map. `frame_bytes` is the length of each stored frame, whose content is arbitrary and
+// Writes the map. `frame_bytes` is the length of each encoded tile, whose content is arbitrary and
 // differs with `seed`.
 TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes = 1000,
                    unsigned seed = 1);

@@ -97,10 +97,8 @@ Camera camera_of(const Options& options) {
   if (is_paper) return kPaperCamera;
   return {width,
           height,
-          focal(width, options.view_deg[0]),
-          focal(height, options.view_deg[1]),
-          width / 2.0,
-          height / 2.0};
+          {focal(width, options.view_deg[0]), focal(height, options.view_deg[1]), width / 2.0,
+           height / 2.0}};
 }
 
 template <class T>

@@ -25,8 +25,8 @@ Projection Projection::pinhole(const Camera& camera, const Pose& pose) {
   view.right_ = right * std::cos(roll) + down * std::sin(roll);
   view.down_ = down * std::cos(roll) - right * std::sin(roll);
   view.forward_ = forward;
-  view.focal_px_ = {camera.focal_x_px, camera.focal_y_px};
-  view.principal_px_ = {camera.principal_x_px, camera.principal_y_px};
+  view.focal_px_ = {camera.pinhole.focal_x_px, camera.pinhole.focal_y_px};
+  view.principal_px_ = {camera.pinhole.principal_x_px, camera.pinhole.principal_y_px};
   view.size_ = {camera.width_px, camera.height_px};
   return view;
 }

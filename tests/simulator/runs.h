@@ -12,7 +12,7 @@
 namespace milepost::simulator {
 
 // The camera of the tracklet paper: 600 x 500 pixels, 80 x 64 degrees.
-inline constexpr Camera kPaperCamera{600, 500, 357.5, 400.1, 300, 250};
+inline constexpr Camera kPaperCamera{600, 500, {357.5, 400.1, 300, 250}};
 
 struct RunPlan {
   std::string name;

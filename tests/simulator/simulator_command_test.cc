@@ -45,8 +45,8 @@ TEST(SimulatorCommand, WritesADriveOfEachNameAndSaysNothingInAPipe) {
     const Result<Drive> drive = read_drive(folder / name);
     ASSERT_TRUE(drive.ok()) << drive.error().line();
     EXPECT_EQ(drive->camera.width_px, 120);
-    EXPECT_NEAR(drive->camera.focal_x_px, 71.5, 0.1);
-    EXPECT_NEAR(drive->camera.focal_y_px, 80.0, 0.1);
+    EXPECT_NEAR(drive->camera.pinhole.focal_x_px, 71.5, 0.1);
+    EXPECT_NEAR(drive->camera.pinhole.focal_y_px, 80.0, 0.1);
   }
 }
 

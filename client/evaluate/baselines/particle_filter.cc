@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <vector>
 
+#include "client/estimation/resampling.h"
 #include "client/evaluate/baselines/along_filter.h"
 
 namespace milepost {
@@ -65,21 +67,13 @@ class ParticleFilter : public AlongFilter {
     return {mean_m, variance_m2};
   }
 
-  // Systematic resampling: one draw places a comb of equal steps over the summed weights.
   void resample() {
-    double total = 0;
-    for (const double weight : weights_) total += weight;
-    const double step = total / static_cast<double>(along_m_.size());
-    double tooth = std::uniform_real_distribution<double>(0, step)(random_);
-    double summed = weights_.front();
+    const double total = std::accumulate(weights_.begin(), weights_.end(), 0.0);
     std::vector<double> drawn_m;
     drawn_m.reserve(along_m_.size());
-    std::size_t i = 0;
-    while (drawn_m.size() < along_m_.size()) {
-      while (summed < tooth && i + 1 < along_m_.size()) summed += weights_[++i];
-      drawn_m.push_back(along_m_[i]);
-      tooth += step;
-    }
+    resample_systematically(
+        along_m_.size(), [&](std::size_t i) { return weights_[i]; }, total, along_m_.size(),
+        random_, [&](std::size_t i) { drawn_m.push_back(along_m_[i]); });
     along_m_ = std::move(drawn_m);
   }
 

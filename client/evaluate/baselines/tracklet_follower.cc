@@ -14,11 +14,10 @@ constexpr double kStartRefineM = 3;  // to either side of the start, for the sec
 
 class TrackletFollower : public Follower {
  public:
-  TrackletFollower(const SegmentLayer& layer, const QueryCamera& camera,
-                   const ScoutSettings& settings, const TrackletMethod& method)
+  TrackletFollower(const SegmentLayer& layer, const Camera& camera, const ScoutSettings& settings,
+                   const TrackletMethod& method)
       : feature_(layer.feature()),
-        scale_ratio_(layer.parameters().focal_px() /
-                     std::sqrt(camera.focal_x_px * camera.focal_y_px)),
+        scale_ratio_(layer.parameters().focal_px() / camera.pinhole.focal_px()),
         image_width_px_(camera.width_px),
         min_start_support_(settings.min_start_support),
         on_estimate_(settings.on_estimate),
@@ -100,7 +99,7 @@ class TrackletFollower : public Follower {
 
 class TrackletScout : public Scout {
  public:
-  TrackletScout(const SegmentLayer& layer, const QueryCamera& camera, ScoutSettings settings,
+  TrackletScout(const SegmentLayer& layer, const Camera& camera, ScoutSettings settings,
                 const TrackletMethod& method)
       : layer_(layer), camera_(camera), settings_(std::move(settings)), method_(method) {}
 
@@ -119,7 +118,7 @@ class TrackletScout : public Scout {
 
  private:
   const SegmentLayer& layer_;
-  QueryCamera camera_;
+  Camera camera_;
   ScoutSettings settings_;
   TrackletMethod method_;
 };
@@ -127,7 +126,7 @@ class TrackletScout : public Scout {
 }  // namespace
 
 MakeScout tracklet_scouts(const TrackletMethod& method) {
-  return [method](const SegmentLayer& layer, const QueryCamera& camera,
+  return [method](const SegmentLayer& layer, const Camera& camera,
                   const ScoutSettings& settings) -> Result<std::unique_ptr<Scout>> {
     const LayerItems items = layer.parameters().items;
     if (items != LayerItems::tracklets && items != LayerItems::observations) {

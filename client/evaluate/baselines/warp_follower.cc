@@ -44,7 +44,7 @@ class PathCosts {
 
 class WarpFollower : public Follower {
  public:
-  WarpFollower(const SegmentLayer& layer, const QueryCamera& camera, const ScoutSettings& settings,
+  WarpFollower(const SegmentLayer& layer, const Camera& camera, const ScoutSettings& settings,
                const WarpMethod& method)
       : layer_(layer),
         camera_(camera),
@@ -133,9 +133,8 @@ class WarpFollower : public Follower {
       if (!frame.frame().image || !map_frame.frame().image) return std::nullopt;
       return image_distance(frame.frame().image(), *map_frame.frame().image);
     }
-    const double query_focal_px = std::sqrt(camera_.focal_x_px * camera_.focal_y_px);
     const auto change = scale_change(frame.features(layer_.feature()),
-                                     layer_.parameters().focal_px() / query_focal_px,
+                                     layer_.parameters().focal_px() / camera_.pinhole.focal_px(),
                                      camera_.width_px, map_frame, method_.scale);
     if (!change) return std::nullopt;
     matches = change->matches;
@@ -161,7 +160,7 @@ class WarpFollower : public Follower {
   }
 
   const SegmentLayer& layer_;
-  QueryCamera camera_;
+  Camera camera_;
   WarpMethod method_;
   FrameWindow window_;
   Covered covered_;  // of the latest band
@@ -173,7 +172,7 @@ class WarpFollower : public Follower {
 
 class WarpScout : public Scout {
  public:
-  WarpScout(const SegmentLayer& layer, const QueryCamera& camera, ScoutSettings settings,
+  WarpScout(const SegmentLayer& layer, const Camera& camera, ScoutSettings settings,
             const WarpMethod& method)
       : layer_(layer), camera_(camera), settings_(std::move(settings)), method_(method) {}
 
@@ -193,7 +192,7 @@ class WarpScout : public Scout {
 
  private:
   const SegmentLayer& layer_;
-  QueryCamera camera_;
+  Camera camera_;
   ScoutSettings settings_;
   WarpMethod method_;
 };
@@ -201,7 +200,7 @@ class WarpScout : public Scout {
 }  // namespace
 
 MakeScout warp_scouts(const WarpMethod& method) {
-  return [method](const SegmentLayer& layer, const QueryCamera& camera,
+  return [method](const SegmentLayer& layer, const Camera& camera,
                   const ScoutSettings& settings) -> Result<std::unique_ptr<Scout>> {
     if (layer.parameters().items != LayerItems::frames) return unusable_items(layer);
     return std::unique_ptr<Scout>(std::make_unique<WarpScout>(layer, camera, settings, method));

@@ -30,7 +30,7 @@ GeoPoint at(double east_m, double north_m) {
 // A map of that one road, with 200 kB in every layer.
 class RoadMap : public testing::MemorySource {
  public:
-  RoadMap() : MemorySource({"town", "b1"}, "layer", "{}") {
+  RoadMap() : MemorySource({"town", "b1"}, "layer", nlohmann::json::object()) {
     add({"road", kRoadM, {at(0, 0), at(kRoadM, 0)}, {}}, {});
   }
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& /*position*/,

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "schema/base/digest.h"
+#include "schema/feature/types.h"
 
 namespace milepost::testing {
 namespace {
@@ -29,21 +30,21 @@ Bytes random_bytes(std::size_t size, std::uint32_t seed) {
 
 FakeMap::FakeMap() {
   for (std::uint32_t k = 0; k < kTiles; ++k) {
-    const Bytes bytes = frame(k);
+    const Bytes bytes = encoded_tile(k);
     index.push_back({k, {20.0 * k, 20.0 * k + 25}, 10, bytes.size(), digest_of(bytes)});
   }
   for (std::uint32_t k = 0; k < kCells; ++k) {
-    const Bytes bytes = cell_frame(k);
+    const Bytes bytes = encoded_cell(k);
     const GridCell cell{27800 + k / 3, 37680 + k % 3};
     cells.push_back({cell.number(), 10, bytes.size(), digest_of(bytes)});
   }
 }
 
-Bytes FakeMap::frame(std::uint32_t index_of_tile) const {
+Bytes FakeMap::encoded_tile(std::uint32_t index_of_tile) const {
   return random_bytes(1000 + 10 * index_of_tile, index_of_tile + 1);
 }
 
-Bytes FakeMap::cell_frame(std::uint32_t k) const { return random_bytes(500 + 10 * k, k + 101); }
+Bytes FakeMap::encoded_cell(std::uint32_t k) const { return random_bytes(500 + 10 * k, k + 101); }
 
 std::string FakeMap::catalog_document() const {
   return json{{"maps", {{{"name", "town"}, {"build", build}}}}}.dump();
@@ -54,8 +55,10 @@ std::string FakeMap::map_document() const {
       {"name", "town"},
       {"build", build},
       {"layers", {"tracklets", "walls"}},
-      {"layer_parameters", {{"tracklets", {{"tile_length_m", 20}}}, {"walls", {{"a", 1}}}}},
-      {"feature", {{"kind", "sift"}}},
+      {"layer_parameters",
+       {{"tracklets", {{"items", "tracklets"}, {"focal_px", {400, 900}}}},
+        {"walls", {{"items", "walls"}}}}},
+      {"feature", to_json(FeatureParameters())},
       {"bounds", {{"west_deg", 8.4}, {"south_deg", 49}, {"east_deg", 8.4}, {"north_deg", 49.0018}}},
       {"segments", {"s1"}},
       {"length_m", 200}}
@@ -107,7 +110,7 @@ std::string FakeMap::near_document() const {
 std::string FakeMap::range_body(const AlongRange& range) const {
   std::string body;
   for (const TileEntry& entry : index) {
-    if (entry.along.meets(range)) body += text_of(frame(entry.index));
+    if (entry.along.meets(range)) body += text_of(encoded_tile(entry.index));
   }
   return body;
 }
@@ -115,7 +118,7 @@ std::string FakeMap::range_body(const AlongRange& range) const {
 std::string FakeMap::box_body(const Bounds& box) const {
   std::string body;
   for (std::uint32_t k = 0; k < cells.size(); ++k) {
-    if (GridCell::numbered(cells[k].cell).bounds().meets(box)) body += text_of(cell_frame(k));
+    if (GridCell::numbered(cells[k].cell).bounds().meets(box)) body += text_of(encoded_cell(k));
   }
   return body;
 }
@@ -132,12 +135,13 @@ ScriptedAnswer FakeMap::answer(const std::string& target) const {
   if (const auto range = range_of(target)) return ok(range_body(*range));
   const std::string tile = segment + "/tiles/tracklets/";
   if (target.starts_with(tile)) {
-    return ok(text_of(frame(static_cast<std::uint32_t>(std::stoul(target.substr(tile.size()))))));
+    return ok(
+        text_of(encoded_tile(static_cast<std::uint32_t>(std::stoul(target.substr(tile.size()))))));
   }
   if (const auto box = box_of(target)) return ok(box_body(*box));
   for (std::uint32_t k = 0; k < cells.size(); ++k) {
     if (target == areas + "/walls/" + std::to_string(cells[k].cell)) {
-      return ok(text_of(cell_frame(k)));
+      return ok(text_of(encoded_cell(k)));
     }
   }
   return problem(404, "no such thing");

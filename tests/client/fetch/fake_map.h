@@ -26,17 +26,17 @@ class FakeMap {
   FakeMap();
 
   MapVersion version() const { return {"town", build}; }
-  Bytes frame(std::uint32_t index) const;
-  Bytes cell_frame(std::uint32_t k) const;
+  Bytes encoded_tile(std::uint32_t index) const;
+  Bytes encoded_cell(std::uint32_t k) const;
 
   std::string catalog_document() const;
   std::string map_document() const;
   std::string segment_document() const;
   std::string areas_document() const;
   std::string near_document() const;
-  // The frames of the tiles that meet the range.
+  // The bytes of the tiles that meet the range.
   std::string range_body(const AlongRange& range) const;
-  // The frames of the cells that meet the box.
+  // The bytes of the cells that meet the box.
   std::string box_body(const Bounds& box) const;
 
   // What a good server answers.

@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "schema/store/map_store.h"
 #include "tests/support/temp_folder.h"
 
@@ -15,7 +17,9 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-Bytes frame_of(std::uint32_t index) { return Bytes(100 + index, static_cast<std::uint8_t>(index)); }
+Bytes tile_bytes(std::uint32_t index) {
+  return Bytes(100 + index, static_cast<std::uint8_t>(index));
+}
 
 // The cell at 49 N 8.4 E; there is another to its east.
 constexpr std::uint32_t kCell = 27800 * kCellColumns + 37680;
@@ -26,17 +30,18 @@ class FileSourceTest : public ::testing::Test {
   FileSourceTest() {
     auto writer = MapWriter::create(file_);
     EXPECT_TRUE(writer.ok());
-    EXPECT_TRUE(writer->set_feature_json(R"({"kind":"sift"})").ok());
-    EXPECT_TRUE(writer->add_layer("tracklets", R"({"tile_length_m":20})").ok());
+    EXPECT_TRUE(writer->set_feature_json(to_json(FeatureParameters()).dump()).ok());
+    EXPECT_TRUE(
+        writer->add_layer("tracklets", R"({"items":"tracklets","focal_px":[400,900]})").ok());
     add_segment(*writer, "s1", 8.400);
     add_segment(*writer, "s2", 8.401);
     for (std::uint32_t k = 0; k < 10; ++k) {
       const AlongRange along{20.0 * k, 20.0 * k + 25};
-      EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, frame_of(k)).ok());
+      EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, tile_bytes(k)).ok());
     }
     EXPECT_TRUE(writer->add_layer("walls", "{}").ok());
     for (std::uint32_t k = 0; k < 2; ++k) {
-      EXPECT_TRUE(writer->add_cell("walls", kCell + k, 3, frame_of(k)).ok());
+      EXPECT_TRUE(writer->add_cell("walls", kCell + k, 3, tile_bytes(k)).ok());
     }
     auto build = writer->finish();
     EXPECT_TRUE(build.ok());
@@ -81,8 +86,8 @@ TEST_F(FileSourceTest, DescribesTheMapAndItsSegments) {
   const auto description = source_->describe(version_);
   ASSERT_TRUE(description.ok());
   EXPECT_EQ(description->version, version_);
-  EXPECT_EQ(description->layers.at("tracklets"), R"({"tile_length_m":20})");
-  EXPECT_EQ(description->feature_json, R"({"kind":"sift"})");
+  EXPECT_EQ(description->layers.at("tracklets")->focal_px(), 600);
+  EXPECT_EQ(*description->feature, FeatureParameters());
   EXPECT_EQ(description->bounds.west_deg, 8.4);
   EXPECT_EQ(description->bounds.north_deg, 49.005);  // of the cells
   const auto segment = source_->segment(version_, "s2");
@@ -96,9 +101,9 @@ TEST_F(FileSourceTest, ReadsTheTilesOfARange) {
   const auto tiles = source_->tiles(version_, "s1", "tracklets", {30, 60});
   ASSERT_TRUE(tiles.ok());
   std::vector<std::uint32_t> indices;
-  for (const TileFrame& tile : *tiles) {
+  for (const EncodedTile& tile : *tiles) {
     indices.push_back(tile.index);
-    EXPECT_EQ(tile.frame, frame_of(tile.index));
+    EXPECT_EQ(tile.bytes, tile_bytes(tile.index));
   }
   EXPECT_THAT(indices, ElementsAre(1, 2, 3));
   EXPECT_EQ(*source_->layer_bytes(version_, "s1", "tracklets"), 10U * 100 + 45);
@@ -111,7 +116,7 @@ TEST_F(FileSourceTest, ReadsTheCellsOfABox) {
   ASSERT_EQ(both->size(), 2U);
   for (std::uint32_t k = 0; k < 2; ++k) {
     EXPECT_EQ((*both)[k].cell, kCell + k);
-    EXPECT_EQ((*both)[k].frame, frame_of(k));
+    EXPECT_EQ((*both)[k].bytes, tile_bytes(k));
   }
   EXPECT_EQ(source_->cells(version_, "walls", {8.406, 49, 8.41, 49.001})->size(), 1U);
   EXPECT_EQ(source_->cells(version_, "walls", {8.406, 49, -170, 49.001})->size(), 1U);
@@ -151,7 +156,7 @@ TEST_F(FileSourceTest, SeveralThreadsShareASource) {
         const auto tiles =
             source_->tiles(version_, "s1", "tracklets", {20.0 * k + 10, 20.0 * k + 10});
         ASSERT_TRUE(tiles.ok());
-        EXPECT_EQ(tiles->front().frame, frame_of(k));
+        EXPECT_EQ(tiles->front().bytes, tile_bytes(k));
         EXPECT_TRUE(source_->segments_near({49, 8.4, 0}, 50).ok());
       }
     });

@@ -33,7 +33,7 @@ class HttpAreasTest : public MisbehavingServerTest {
     ASSERT_EQ(cells->size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_EQ((*cells)[i].cell, map_.cells[expected[i]].cell);
-      EXPECT_EQ((*cells)[i].frame, map_.cell_frame(expected[i])) << expected[i];
+      EXPECT_EQ((*cells)[i].bytes, map_.encoded_cell(expected[i])) << expected[i];
     }
   }
 
@@ -170,7 +170,7 @@ TEST_F(HttpAreasTest, CellsDoNotStandInForTiles) {
     EXPECT_EQ(source->describe(map_.version())->version, map_.version());
     const auto tiles = source->tiles(map_.version(), "s1", "tracklets", {30, 30});
     ASSERT_TRUE(tiles.ok()) << tiles.error().line();
-    EXPECT_EQ(tiles->front().frame, map_.frame(1));
+    EXPECT_EQ(tiles->front().bytes, map_.encoded_tile(1));
   }
   EXPECT_EQ(server_.requests().size(), 5U);
 }

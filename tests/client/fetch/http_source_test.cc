@@ -31,9 +31,9 @@ class HttpSourceTest : public MisbehavingServerTest {
     const auto tiles = source.tiles(map_.version(), "s1", "tracklets", range);
     ASSERT_TRUE(tiles.ok()) << tiles.error().line();
     std::vector<std::uint32_t> answered;
-    for (const TileFrame& tile : *tiles) {
+    for (const EncodedTile& tile : *tiles) {
       answered.push_back(tile.index);
-      EXPECT_EQ(tile.frame, map_.frame(tile.index)) << tile.index;
+      EXPECT_EQ(tile.bytes, map_.encoded_tile(tile.index)) << tile.index;
     }
     EXPECT_EQ(answered, indices);
   }
@@ -155,7 +155,7 @@ TEST_F(HttpSourceTest, HostileAnswersAreRefused) {
       {"last byte missing", good.substr(0, good.size() - 1)},
       {"first tile missing", without_the_first},
       {"one byte more", good + "x"},
-      {"a tile more", good + std::string(as_text(map_.frame(5)))},
+      {"a tile more", good + std::string(as_text(map_.encoded_tile(5)))},
       {"other order", without_the_first + good.substr(0, 1010)},
       {"the same tile again", good.substr(0, 1010) + good},
       {"something else", std::string(100000, 'x')},
@@ -177,7 +177,7 @@ TEST_F(HttpSourceTest, HostileAnswersAreRefused) {
 }
 
 TEST_F(HttpSourceTest, AHostileSingleTileIsRefused) {
-  answer_next("/tiles/tracklets/1", {{.body = std::string(as_text(map_.frame(2)))}});
+  answer_next("/tiles/tracklets/1", {{.body = std::string(as_text(map_.encoded_tile(2)))}});
   EXPECT_EQ(tiles_error(*open_source(), {30, 30}).code, ErrorCode::corrupt);
 }
 
@@ -226,8 +226,8 @@ TEST_F(HttpSourceTest, WithoutAServerTheCacheAnswers) {
   const auto description = source->describe(map_.version());
   ASSERT_TRUE(description.ok());
   EXPECT_EQ(description->version, map_.version());
-  EXPECT_EQ(description->layers.at("tracklets"), R"({"tile_length_m":20})");
-  EXPECT_EQ(description->feature_json, R"({"kind":"sift"})");
+  EXPECT_EQ(description->layers.at("tracklets")->focal_px(), 600);
+  EXPECT_EQ(*description->feature, FeatureParameters());
 
   const auto near = source->segments_near({49.00045, 8.40001, 0}, 5);
   ASSERT_TRUE(near.ok()) << near.error().line();

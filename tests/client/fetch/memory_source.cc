@@ -15,7 +15,7 @@ Error gone() { return {ErrorCode::gone, "map", "was built anew", "look it up"}; 
 
 }  // namespace
 
-MemorySource::MemorySource(MapVersion version, std::string layer, std::string layer_parameters)
+MemorySource::MemorySource(MapVersion version, std::string layer, nlohmann::json layer_parameters)
     : layer_(std::move(layer)),
       layer_parameters_(std::move(layer_parameters)),
       version_(std::move(version)) {}
@@ -74,7 +74,7 @@ Result<std::vector<MapVersion>> MemorySource::maps() {
 Result<MapDescription> MemorySource::describe(const MapVersion& version) {
   note_caller();
   ++document_requests_;
-  return MapDescription{version, {{layer_, layer_parameters_}}, to_json(FeatureParameters())};
+  return MapDescription{version, {{layer_, layer_parameters_from_json(layer_parameters_)}}};
 }
 
 Result<SegmentDescription> MemorySource::segment(const MapVersion& /*version*/,
@@ -85,23 +85,23 @@ Result<SegmentDescription> MemorySource::segment(const MapVersion& /*version*/,
   return roads_.at(segment).description;
 }
 
-Result<std::vector<TileFrame>> MemorySource::tiles(const MapVersion& /*version*/,
-                                                   const std::string& segment,
-                                                   const std::string& /*layer*/,
-                                                   const AlongRange& range) {
+Result<std::vector<EncodedTile>> MemorySource::tiles(const MapVersion& /*version*/,
+                                                     const std::string& segment,
+                                                     const std::string& /*layer*/,
+                                                     const AlongRange& range) {
   const std::lock_guard lock(mutex_);
-  std::vector<TileFrame> met;
+  std::vector<EncodedTile> met;
   const std::vector<Tile>& tiles = roads_.at(segment).tiles;
   for (std::uint32_t i = 0; i < tiles.size(); ++i) {
-    if (tiles[i].along.meets(range)) met.push_back({i, tiles[i].frame});
+    if (tiles[i].along.meets(range)) met.push_back({i, tiles[i].bytes});
   }
   return met;
 }
 
-Result<std::vector<CellFrame>> MemorySource::cells(const MapVersion& /*version*/,
-                                                   const std::string& /*layer*/,
-                                                   const Bounds& /*box*/) {
-  return std::vector<CellFrame>{};
+Result<std::vector<EncodedCell>> MemorySource::cells(const MapVersion& /*version*/,
+                                                     const std::string& /*layer*/,
+                                                     const Bounds& /*box*/) {
+  return std::vector<EncodedCell>{};
 }
 
 Result<std::uint64_t> MemorySource::layer_bytes(const MapVersion& /*version*/,
@@ -109,7 +109,7 @@ Result<std::uint64_t> MemorySource::layer_bytes(const MapVersion& /*version*/,
                                                 const std::string& /*layer*/) {
   const std::lock_guard lock(mutex_);
   std::uint64_t bytes = 0;
-  for (const Tile& tile : roads_.at(segment).tiles) bytes += tile.frame.size();
+  for (const Tile& tile : roads_.at(segment).tiles) bytes += tile.bytes.size();
   return bytes;
 }
 
@@ -123,7 +123,7 @@ Result<std::vector<TileEntry>> MemorySource::tile_index(const MapVersion& /*vers
     TileEntry entry;
     entry.index = static_cast<std::uint32_t>(index.size());
     entry.along = tile.along;
-    entry.bytes = tile.frame.size();
+    entry.bytes = tile.bytes.size();
     index.push_back(entry);
   }
   return index;
@@ -136,7 +136,7 @@ Result<std::optional<Bytes>> MemorySource::stored_tile(const MapVersion& /*versi
   note_caller();
   const std::lock_guard lock(mutex_);
   if (!is_stored_) return std::optional<Bytes>();
-  return std::optional<Bytes>(roads_.at(segment).tiles[entry.index].frame);
+  return std::optional<Bytes>(roads_.at(segment).tiles[entry.index].bytes);
 }
 
 Attempt MemorySource::fetch_tiles(const MapVersion& version, const std::string& segment,
@@ -145,17 +145,17 @@ Attempt MemorySource::fetch_tiles(const MapVersion& version, const std::string& 
   note_caller();
   ++tile_requests_;
   wait_while_blocked();
-  std::vector<TileFrame> frames;
+  std::vector<EncodedTile> found;
   {
     const std::lock_guard lock(mutex_);
     if (is_unavailable_) return {unavailable()};
     if (version != version_) return {gone()};
     for (const TileEntry& entry : tiles) {
       if (refused_.contains(entry.index)) return {unavailable()};
-      frames.push_back({entry.index, roads_.at(segment).tiles[entry.index].frame});
+      found.push_back({entry.index, roads_.at(segment).tiles[entry.index].bytes});
     }
   }
-  for (const TileFrame& frame : frames) take(frame);
+  for (const EncodedTile& tile : found) take(tile);
   return {};
 }
 

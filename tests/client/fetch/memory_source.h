@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "client/fetch/map_source.h"
 
 namespace milepost::testing {
@@ -19,10 +21,10 @@ class MemorySource : public MapSource, public std::enable_shared_from_this<Memor
  public:
   struct Tile {
     AlongRange along;
-    Bytes frame;
+    Bytes bytes;
   };
 
-  MemorySource(MapVersion version, std::string layer, std::string layer_parameters);
+  MemorySource(MapVersion version, std::string layer, nlohmann::json layer_parameters);
 
   void add(const SegmentDescription& segment, std::vector<Tile> tiles);
   // The map as it is is gone.
@@ -48,10 +50,11 @@ class MemorySource : public MapSource, public std::enable_shared_from_this<Memor
   Result<MapDescription> describe(const MapVersion& version) override;
   Result<SegmentDescription> segment(const MapVersion& version,
                                      const std::string& segment) override;
-  Result<std::vector<TileFrame>> tiles(const MapVersion& version, const std::string& segment,
-                                       const std::string& layer, const AlongRange& range) override;
-  Result<std::vector<CellFrame>> cells(const MapVersion& version, const std::string& layer,
-                                       const Bounds& box) override;
+  Result<std::vector<EncodedTile>> tiles(const MapVersion& version, const std::string& segment,
+                                         const std::string& layer,
+                                         const AlongRange& range) override;
+  Result<std::vector<EncodedCell>> cells(const MapVersion& version, const std::string& layer,
+                                         const Bounds& box) override;
   Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
                                     const std::string& layer) override;
   SourceCounters counters() const override { return {}; }
@@ -75,7 +78,7 @@ class MemorySource : public MapSource, public std::enable_shared_from_this<Memor
   void wait_while_blocked();
 
   const std::string layer_;
-  const std::string layer_parameters_;
+  const nlohmann::json layer_parameters_;
   mutable std::mutex mutex_;  // guards all below but what is atomic
   MapVersion version_;
   std::map<std::string, Road> roads_;

@@ -87,13 +87,13 @@ class PortalTest : public MisbehavingServerTest {
     EXPECT_THAT(*maps, ElementsAre(map_.version()));
     const auto description = source.describe(map_.version());
     ASSERT_TRUE(description.ok()) << description.error().line();
-    EXPECT_EQ(description->feature_json, R"({"kind":"sift"})");
+    EXPECT_EQ(*description->feature, FeatureParameters());
     const auto segment = source.segment(map_.version(), "s1");
     ASSERT_TRUE(segment.ok()) << segment.error().line();
     EXPECT_EQ(segment->length_m, 200);
     const auto tiles = source.tiles(map_.version(), "s1", "tracklets", {0, 100});
     ASSERT_TRUE(tiles.ok()) << tiles.error().line();
-    for (const TileFrame& tile : *tiles) EXPECT_EQ(tile.frame, map_.frame(tile.index));
+    for (const EncodedTile& tile : *tiles) EXPECT_EQ(tile.bytes, map_.encoded_tile(tile.index));
     const auto cells = source.cells(map_.version(), "walls", kEverything);
     ASSERT_TRUE(cells.ok()) << cells.error().line();
     EXPECT_EQ(cells->size(), map_.cells.size());

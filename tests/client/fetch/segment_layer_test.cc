@@ -24,15 +24,13 @@ const Codebook& codebook() {
 }
 
 nlohmann::json sound_parameters() {
-  return {{"items", "landmarks"},
-          {"focal_px", {400, 900}},
-          {"codebook", nlohmann::json::parse(codebook().to_json())}};
+  return {{"items", "landmarks"}, {"focal_px", {400, 900}}, {"codebook", codebook().to_json()}};
 }
 
 Result<std::shared_ptr<const SegmentLayer>> read_layer(const nlohmann::json& parameters,
                                                        const std::string& layer = "tracklets") {
   const MapVersion town = {"town", "build"};
-  const auto source = std::make_shared<testing::MemorySource>(town, "tracklets", parameters.dump());
+  const auto source = std::make_shared<testing::MemorySource>(town, "tracklets", parameters);
   source->add({"road", 111, {{49, 8.4, 110}, {49.001, 8.4, 110}}, {}}, {});
   const auto read = read_build_layer(*source, town, layer);
   if (!read) return read.error();

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "client/fetch/file_source.h"
 #include "client/fetch/http_source.h"
 #include "client/fetch/walls.h"
@@ -20,7 +22,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-Bytes frame_of(std::uint32_t index) {
+Bytes tile_bytes(std::uint32_t index) {
   return Bytes(5000 + index, static_cast<std::uint8_t>(index));
 }
 
@@ -34,14 +36,14 @@ const std::vector<Wall> kWalls = {{{49.001, 8.401}, {49.001, 8.402}, 0.25},
 std::string write_map(const std::filesystem::path& file) {
   auto writer = MapWriter::create(file);
   EXPECT_TRUE(writer.ok());
-  EXPECT_TRUE(writer->set_feature_json(R"({"kind":"sift"})").ok());
-  EXPECT_TRUE(writer->add_layer("tracklets", R"({"tile_length_m":20})").ok());
+  EXPECT_TRUE(writer->set_feature_json(to_json(FeatureParameters()).dump()).ok());
+  EXPECT_TRUE(writer->add_layer("tracklets", R"({"items":"tracklets","focal_px":[400,900]})").ok());
   EXPECT_TRUE(writer->add_layer("walls", "{}").ok());
   const StoredSegment segment{"s1", 200.2, {{49, 8.4, 110, 0}, {49.0018, 8.4, 111, 200.2}}, {"s2"}};
   EXPECT_TRUE(writer->add_segment(segment).ok());
   for (std::uint32_t k = 0; k < 10; ++k) {
     const AlongRange along{20.0 * k + 1.0 / 3, 20.0 * k + 25 + 1.0 / 7};
-    EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, frame_of(k)).ok());
+    EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, tile_bytes(k)).ok());
   }
   for (const WallTile& tile : tiles_of(kWalls)) {
     EXPECT_TRUE(writer->add_cell("walls", tile.cell, tile.walls.size(), encode_walls(tile)).ok());
@@ -76,11 +78,11 @@ class ServedMapTest : public ::testing::Test {
     return std::move(source).value();
   }
 
-  static std::vector<std::uint32_t> indices_of(const Result<std::vector<TileFrame>>& tiles) {
+  static std::vector<std::uint32_t> indices_of(const Result<std::vector<EncodedTile>>& tiles) {
     EXPECT_TRUE(tiles.ok()) << tiles.error().line();
     std::vector<std::uint32_t> indices;
-    for (const TileFrame& tile : *tiles) {
-      EXPECT_EQ(tile.frame, frame_of(tile.index));
+    for (const EncodedTile& tile : *tiles) {
+      EXPECT_EQ(tile.bytes, tile_bytes(tile.index));
       indices.push_back(tile.index);
     }
     return indices;
@@ -96,8 +98,10 @@ TEST_F(ServedMapTest, TheServerAndTheFileAnswerTheSame) {
   const auto served = open_source();
   const auto description = served->describe(version_);
   ASSERT_TRUE(description.ok()) << description.error().line();
-  EXPECT_EQ(description->layers, file->describe(version_)->layers);
-  EXPECT_EQ(description->feature_json, file->describe(version_)->feature_json);
+  const auto& layer = description->layers.at("tracklets");
+  ASSERT_TRUE(layer.ok()) << layer.error().line();
+  EXPECT_EQ(layer->focal_px(), file->describe(version_)->layers.at("tracklets")->focal_px());
+  EXPECT_EQ(*description->feature, *file->describe(version_)->feature);
   const auto segment = served->segment(version_, "s1");
   ASSERT_TRUE(segment.ok()) << segment.error().line();
   EXPECT_EQ(segment->vertices, file->segment(version_, "s1")->vertices);

@@ -22,7 +22,7 @@ GeoPoint at(double north_m) { return LocalFrame({49, 8.4, 0}).geo_from_enu({0, n
 
 std::shared_ptr<testing::MemorySource> a_map() {
   auto map = std::make_shared<testing::MemorySource>(
-      kTown, "wisurf", R"({"items": "frames", "focal_px": [400, 400]})");
+      kTown, "wisurf", nlohmann::json{{"items", "frames"}, {"focal_px", {400, 400}}});
   std::vector<testing::MemorySource::Tile> tiles;
   for (std::uint32_t i = 0; i < kTiles; ++i) {
     const FrameTile tile{"road", i, {{20.0 * i + 5, {}, ImageDescriptor{}}}};

@@ -33,12 +33,13 @@ const Wall kInBoth = wall(2, 4.9, 2, 5.1);
 class WallsTest : public ::testing::Test {
  protected:
   // A map file of a layer with those cells, opened.
-  std::shared_ptr<MapSource> map_of(const std::string& layer, const std::vector<CellFrame>& cells) {
+  std::shared_ptr<MapSource> map_of(const std::string& layer,
+                                    const std::vector<EncodedCell>& cells) {
     auto writer = MapWriter::create(folder_ / "town.map");
     EXPECT_TRUE(writer.ok());
     EXPECT_TRUE(writer->add_layer(layer, R"({"items":"walls"})").ok());
-    for (const CellFrame& cell : cells) {
-      EXPECT_TRUE(writer->add_cell(layer, cell.cell, 1, cell.frame).ok());
+    for (const EncodedCell& cell : cells) {
+      EXPECT_TRUE(writer->add_cell(layer, cell.cell, 1, cell.bytes).ok());
     }
     const auto build = writer->finish();
     EXPECT_TRUE(build.ok());
@@ -46,8 +47,8 @@ class WallsTest : public ::testing::Test {
     return std::move(open_file_source(folder_ / "town.map")).value();
   }
 
-  static std::vector<CellFrame> cells_of(const std::vector<Wall>& walls) {
-    std::vector<CellFrame> cells;
+  static std::vector<EncodedCell> cells_of(const std::vector<Wall>& walls) {
+    std::vector<EncodedCell> cells;
     for (const WallTile& tile : tiles_of(walls)) cells.push_back({tile.cell, encode_walls(tile)});
     return cells;
   }
@@ -73,8 +74,8 @@ TEST_F(WallsTest, OfAnAbsentLayerAreNotFound) {
 }
 
 TEST_F(WallsTest, ADamagedTileIsNamed) {
-  std::vector<CellFrame> cells = cells_of({kInFirst});
-  cells[0].frame[cells[0].frame.size() / 2] ^= 1;
+  std::vector<EncodedCell> cells = cells_of({kInFirst});
+  cells[0].bytes[cells[0].bytes.size() / 2] ^= 1;
   const auto source = map_of("walls", cells);
   const auto walls = walls_in(*source, version_, "walls", kEverywhere);
   ASSERT_FALSE(walls.ok());
@@ -84,7 +85,7 @@ TEST_F(WallsTest, ADamagedTileIsNamed) {
 }
 
 TEST_F(WallsTest, ATileOfAnotherCellIsRefused) {
-  std::vector<CellFrame> cells = cells_of({kInFirst});
+  std::vector<EncodedCell> cells = cells_of({kInFirst});
   ++cells[0].cell;
   const auto source = map_of("walls", cells);
   const auto walls = walls_in(*source, version_, "walls", kEverywhere);

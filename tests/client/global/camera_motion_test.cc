@@ -16,7 +16,7 @@ namespace {
 // Wheels and camera poses tell the same: a point ahead and to the right, before and after a turn.
 TEST(CameraMotion, IsThatOfALevelCamera) {
   const WheelMotion wheels{1, 3, 0.4};
-  const CameraMotion motion = camera_motion(wheels);
+  const Eigen::Isometry3d motion = camera_motion(wheels);
   CameraPose before;
   before.heading_rad = 1.1;
   const PlanPose after_plan = moved({{0, 0}, 1.1}, 3, 0.4);
@@ -25,12 +25,12 @@ TEST(CameraMotion, IsThatOfALevelCamera) {
   after.heading_rad = after_plan.heading_rad;
   const Eigen::Vector3d point(12, 9, 2);
   const Eigen::Vector3d expected = seen_from(after, point);
-  const Eigen::Vector3d is = motion.now_from_before * (seen_from(before, point) - motion.way_m);
+  const Eigen::Vector3d is = motion.inverse() * seen_from(before, point);
   EXPECT_TRUE(is.isApprox(expected, 1e-9)) << is.transpose() << " not " << expected.transpose();
 }
 
 // Points seen before and after a motion, with noise, and some that are wrong.
-std::vector<RayPair> pairs_of(const CameraMotion& motion, double sigma, int count, int wrong,
+std::vector<RayPair> pairs_of(const Eigen::Isometry3d& motion, double sigma, int count, int wrong,
                               double away_m = 15) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1, 1);
@@ -40,7 +40,7 @@ std::vector<RayPair> pairs_of(const CameraMotion& motion, double sigma, int coun
     const double depth_m = away_m + 10 * place(random);
     const Eigen::Vector3d point(0.7 * depth_m * place(random), 0.5 * depth_m * place(random),
                                 depth_m);
-    const Eigen::Vector3d now = motion.now_from_before * (point - motion.way_m);
+    const Eigen::Vector3d now = motion.inverse() * point;
     RayPair pair{point / point.z(), now / now.z()};
     for (int axis = 0; axis < 2; ++axis) {
       pair.before[axis] += noise(random);
@@ -56,7 +56,7 @@ double degrees_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 }
 
 TEST(EpipolarDistance, IsNoughtForPointsThatStandStill) {
-  const CameraMotion motion = camera_motion({1, 2, 0.1});
+  const Eigen::Isometry3d motion = camera_motion({1, 2, 0.1});
   for (const RayPair& pair : pairs_of(motion, 0, 50, 0)) {
     EXPECT_NEAR(epipolar_distance(pair, motion), 0, 1e-12);
   }
@@ -64,45 +64,44 @@ TEST(EpipolarDistance, IsNoughtForPointsThatStandStill) {
 
 // Sampson's: each of both rays is as far from where it should be as from the other's line.
 TEST(EpipolarDistance, IsTheRaysOwn) {
-  const CameraMotion ahead{Eigen::Matrix3d::Identity(), {0, 0, 0.01}};
+  const Eigen::Isometry3d ahead(Eigen::Translation3d(0, 0, 0.01));
   const RayPair pair{{0.2, 0, 1}, {0.2, 0.003, 1}};
   EXPECT_NEAR(std::abs(epipolar_distance(pair, ahead)), 0.003 / std::sqrt(2), 1e-5);
 }
 
 TEST(EpipolarDistance, IsNoughtWithoutAWay) {
-  EXPECT_EQ(epipolar_distance({{0.2, 0.1, 1}, {0.3, 0.1, 1}}, {}), 0);
+  EXPECT_EQ(epipolar_distance({{0.2, 0.1, 1}, {0.3, 0.1, 1}}, Eigen::Isometry3d::Identity()), 0);
 }
 
 TEST(RefinedMotion, MendsWhatTheWheelsTell) {
   const WheelMotion wheels{0.2, 2, 0.05};
-  CameraMotion truth = camera_motion(wheels);
+  Eigen::Isometry3d truth = camera_motion(wheels);
   // A bump, a yaw that the wheels missed, a camera that looks a little down and to the left.
-  truth.now_from_before = Eigen::AngleAxisd(0.008, Eigen::Vector3d::UnitX()).toRotationMatrix() *
-                          Eigen::AngleAxisd(-0.012, Eigen::Vector3d::UnitY()).toRotationMatrix() *
-                          truth.now_from_before;
-  truth.way_m = Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitX()) * truth.way_m;
-  const CameraMotion start = camera_motion(wheels);
-  const CameraMotion refined = refined_motion(pairs_of(truth, 0.002, 300, 60), start, 0.002);
-  EXPECT_GT(degrees_between(start.now_from_before, truth.now_from_before), 0.8);
-  EXPECT_LT(degrees_between(refined.now_from_before, truth.now_from_before), 0.08);
-  EXPECT_NEAR(refined.way_m.norm(), 2, 1e-9);
-  EXPECT_LT(std::acos(refined.way_m.dot(truth.way_m) / 4) / kRadPerDeg, 0.6);
+  truth.rotate(Eigen::AngleAxisd(0.012, Eigen::Vector3d::UnitY()))
+      .rotate(Eigen::AngleAxisd(-0.008, Eigen::Vector3d::UnitX()));
+  truth.translation() = Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitX()) * truth.translation();
+  const Eigen::Isometry3d start = camera_motion(wheels);
+  const Eigen::Isometry3d refined = refined_motion(pairs_of(truth, 0.002, 300, 60), start, 0.002);
+  EXPECT_GT(degrees_between(start.linear(), truth.linear()), 0.8);
+  EXPECT_LT(degrees_between(refined.linear(), truth.linear()), 0.08);
+  EXPECT_NEAR(refined.translation().norm(), 2, 1e-9);
+  EXPECT_LT(std::acos(refined.translation().dot(truth.translation()) / 4) / kRadPerDeg, 0.6);
 }
 
 // Far away, a way to the side hardly moves a point: its noise is not taken for one.
 TEST(RefinedMotion, WhatThePairsCannotTellIsAsTheWheelsSay) {
-  const CameraMotion start = camera_motion({0.2, 1, 0});
+  const Eigen::Isometry3d start = camera_motion({0.2, 1, 0});
   const std::vector<RayPair> pairs = pairs_of(start, 0.002, 30, 0, 2000);
-  const CameraMotion refined = refined_motion(pairs, start, 0.002);
-  EXPECT_LT(std::acos(refined.way_m.normalized().z()) / kRadPerDeg, 4);
-  EXPECT_LT(degrees_between(refined.now_from_before, start.now_from_before), 0.3);
+  const Eigen::Isometry3d refined = refined_motion(pairs, start, 0.002);
+  EXPECT_LT(std::acos(refined.translation().normalized().z()) / kRadPerDeg, 4);
+  EXPECT_LT(degrees_between(refined.linear(), start.linear()), 0.3);
 }
 
 TEST(RefinedMotion, WithoutPairsTheWheelsAreBelieved) {
-  const CameraMotion start = camera_motion({0.2, 2, 0.05});
-  const CameraMotion refined = refined_motion({}, start, 0.002);
-  EXPECT_TRUE(refined.now_from_before.isApprox(start.now_from_before));
-  EXPECT_TRUE(refined.way_m.isApprox(start.way_m));
+  const Eigen::Isometry3d start = camera_motion({0.2, 2, 0.05});
+  const Eigen::Isometry3d refined = refined_motion({}, start, 0.002);
+  EXPECT_TRUE(refined.linear().isApprox(start.linear()));
+  EXPECT_TRUE(refined.translation().isApprox(start.translation()));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/evaluate/baselines/orientation_filter.h"
 #include "tests/client/global/painted_wall.h"
 
 namespace milepost {
@@ -107,7 +108,7 @@ TEST(Finder, LooksInTheAreaThatIsGiven) {
 // The paper's method draws those anew that leave the area: they would be anywhere.
 TEST(Finder, AKnownStartFarFromTheWallsIsInTheArea) {
   FinderSettings settings = starting_at(-150, 20, 1);
-  settings.method = FindMethod::orientations;
+  settings.method = orientations_method();
   Finder finder(kWalls, kView, settings);
   finder.find(blank(), 0);
   finder.observe({0, 4, 0});
@@ -193,21 +194,6 @@ TEST(Finder, FindsItselfBeforeAWall) {
   const double north_m = LocalFrame(kPlace).enu_from_geo(fix.position).north_m;
   EXPECT_NEAR(north_m, -6, 0.8);  // -5 by the wheels
   EXPECT_EQ(finder.find(blank(), frame).status, FindStatus::predicted);
-}
-
-// Its wheels turn by 5 degrees more or less, for the root of each second; ours by one.
-TEST(Finder, ThePapersMethodIsLessSureOfTurns) {
-  const auto heading_sigma_deg = [](FindMethod method) {
-    FinderSettings settings = starting_at(-60, 0, 1);
-    settings.start->heading_sigma_deg = 0.1;
-    settings.method = method;
-    Finder finder(kWalls, kView, settings);
-    finder.find(blank(), 0);
-    finder.observe({0, 4, 0});
-    return finder.find(blank(), 4).heading_sigma_deg;
-  };
-  EXPECT_GT(heading_sigma_deg(FindMethod::orientations),
-            2 * heading_sigma_deg(FindMethod::combined));
 }
 
 TEST(Finder, AStartWithoutAHeadingMayLookAnywhere) {

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "schema/geo/camera_pose.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost::testing {
 

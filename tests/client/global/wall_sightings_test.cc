@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "schema/geo/camera_pose.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 namespace {

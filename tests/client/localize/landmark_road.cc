@@ -107,14 +107,7 @@ std::vector<LandmarkTile> LandmarkRoad::tiles() const {
   return all;
 }
 
-QueryCamera LandmarkRoad::query_camera() const {
-  return {kWidthPx,
-          kHeightPx,
-          kCamera.focal_x_px,
-          kCamera.focal_y_px,
-          kCamera.principal_x_px,
-          kCamera.principal_y_px};
-}
+Camera LandmarkRoad::query_camera() const { return {kWidthPx, kHeightPx, kCamera}; }
 
 double LandmarkRoad::course_deg(const RoadPose& at) const {
   return wrapped_360(line_.heading_deg_at(at.along_m) + at.yaw_deg);
@@ -159,10 +152,8 @@ LocalizerSettings settings_of_a_short_reach() {
 
 std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road) {
   const nlohmann::json parameters = {
-      {"items", "landmarks"},
-      {"focal_px", {700, 700}},
-      {"codebook", nlohmann::json::parse(road.codebook().to_json())}};
-  auto map = std::make_shared<MemorySource>(kVersion, "tracklets", parameters.dump());
+      {"items", "landmarks"}, {"focal_px", {700, 700}}, {"codebook", road.codebook().to_json()}};
+  auto map = std::make_shared<MemorySource>(kVersion, "tracklets", parameters);
   std::vector<MemorySource::Tile> tiles;
   for (const LandmarkTile& tile : road.tiles()) {
     tiles.push_back({tile.along(), encode_landmarks(tile)});

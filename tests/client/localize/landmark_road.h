@@ -9,6 +9,7 @@
 #include "client/localize/localizer.h"
 #include "schema/feature/codebook.h"
 #include "schema/geo/camera_pose.h"
+#include "schema/geo/pinhole.h"
 #include "schema/geo/route_line.h"
 #include "schema/tile/landmark.h"
 #include "tests/client/fetch/memory_source.h"
@@ -39,7 +40,7 @@ class LandmarkRoad {
   const Codebook& codebook() const { return codebook_; }
   SegmentDescription description() const;
   std::vector<LandmarkTile> tiles() const;
-  QueryCamera query_camera() const;
+  Camera query_camera() const;
 
   // Of the direction of travel, clockwise from north.
   double course_deg(const RoadPose& at) const;

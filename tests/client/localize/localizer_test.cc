@@ -56,9 +56,9 @@ SegmentDescription straight(const std::string& segment) {
 }
 
 std::shared_ptr<testing::MemorySource> one_road() {
-  auto map =
-      std::make_shared<testing::MemorySource>(MapVersion{"map", build_of_map('1')}, "wisurf",
-                                              R"({"items": "frames", "focal_px": [400, 400]})");
+  auto map = std::make_shared<testing::MemorySource>(
+      MapVersion{"map", build_of_map('1')}, "wisurf",
+      nlohmann::json{{"items", "frames"}, {"focal_px", {400, 400}}});
   map->add(straight("road"), tiles_of_a_road(image_from));
   return map;
 }

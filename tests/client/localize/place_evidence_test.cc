@@ -11,7 +11,7 @@ namespace {
 using testing::kSceneCamera;
 using testing::LandmarkScene;
 
-constexpr ImageSize kImage = {620, 380};
+constexpr Camera kImage = {620, 380, kSceneCamera};
 constexpr AlongRange kMapped = {0, 10};  // where all landmarks were seen from
 constexpr double kAlongM = 5;
 
@@ -60,7 +60,7 @@ class SupportOf : public ::testing::Test {
     const CompactFrame frame(set, codebook_);
     const PoseSolver solver(kSceneCamera, frame.features, scene_.landmarks, {});
     const PoseEstimate estimate{LandmarkScene::belief(scene_.state(), 0.1, 0.1), found};
-    return support_of(estimate, along_m, frame, scene_.landmarks, solver, kSceneCamera, kImage, {});
+    return support_of(estimate, along_m, frame, scene_.landmarks, solver, kImage, {});
   }
 
   LandmarkScene scene_{200};

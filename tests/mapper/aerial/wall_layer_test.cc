@@ -17,7 +17,7 @@ using testing::TempFolder;
 
 const std::vector<Wall> kWalls = {{{49, 8.4001}, {49.0001, 8.4001}, 0.4},
                                   {{49.0049, 8.4}, {49.0051, 8.4001}, 0.4}};  // in two cells
-constexpr const char* kParameters = R"({"items":"walls"})";
+const WallLayerParameters kParameters = {};
 
 Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
@@ -73,7 +73,7 @@ TEST(WallLayer, KeepsAllElse) {
   EXPECT_TRUE(map->verify().ok());
   EXPECT_EQ(map->feature_json(), R"({"type":"sift"})");
   EXPECT_EQ(map->layers().size(), 3U);
-  EXPECT_EQ(map->layers().at("walls"), kParameters);
+  EXPECT_EQ(map->layers().at("walls"), R"({"items":"walls"})");
   EXPECT_EQ(map->segment_ids(), std::vector<std::string>{"monday"});
   EXPECT_EQ(map->segment("monday")->vertices.size(), 2U);
   EXPECT_EQ(map->segment("monday")->successors, std::vector<std::string>{"monday"});

@@ -26,7 +26,7 @@ TEST(ReadDrive, GivesWhatTheFolderSays) {
   ASSERT_TRUE(drive.ok()) << drive.error().line();
   EXPECT_EQ(drive->folder, folder.path());
   EXPECT_EQ(drive->name, "north");
-  EXPECT_EQ(drive->camera, (Camera{16, 12, 20.5, 21.5, 8, 6.25}));
+  EXPECT_EQ(drive->camera, (Camera{16, 12, {20.5, 21.5, 8, 6.25}}));
   EXPECT_EQ(drive->position_frame, PositionFrame::local);
   EXPECT_EQ(drive->origin, (GeoPoint{49.0, 8.4, 110}));
   EXPECT_EQ(drive->images, "frames");

@@ -140,9 +140,9 @@ TEST(WriteDriveRefuses, WhatTheReaderWouldRefuse) {
               HasSubstr("odometry.csv, line 3: speed_mps or yaw_rate_dps is not a finite number"));
   EXPECT_THAT(refusal([](Drive& d) { d.gps[0].sigma_m = 0; }),
               HasSubstr("gps.csv, line 2: sigma_m"));
-  EXPECT_THAT(refusal([](Drive& d) { d.camera.focal_x_px = kNan; }),
+  EXPECT_THAT(refusal([](Drive& d) { d.camera.pinhole.focal_x_px = kNan; }),
               HasSubstr("drive.json: camera.focal_px holds nan"));
-  EXPECT_THAT(refusal([](Drive& d) { d.camera.principal_y_px = kNan; }),
+  EXPECT_THAT(refusal([](Drive& d) { d.camera.pinhole.principal_y_px = kNan; }),
               HasSubstr("drive.json: camera.principal_px is not finite"));
   EXPECT_THAT(refusal([](Drive& d) { d.source = "\xff"; }),
               HasSubstr("write the drive's texts in UTF-8"));

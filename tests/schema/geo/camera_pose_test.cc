@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "schema/geo/geodesy.h"
+#include "schema/geo/pinhole.h"
 
 namespace milepost {
 namespace {

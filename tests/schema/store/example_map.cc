@@ -15,11 +15,11 @@ void expect_ok(const Status& status) {
 
 }  // namespace
 
-Bytes frame_of(std::size_t size, std::uint32_t seed) {
+Bytes tile_bytes(std::size_t size, std::uint32_t seed) {
   std::mt19937 random(seed);
-  Bytes frame(size);
-  for (auto& byte : frame) byte = static_cast<std::uint8_t>(random());
-  return frame;
+  Bytes bytes(size);
+  for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+  return bytes;
 }
 
 void add_example(MapWriter& writer) {
@@ -34,14 +34,14 @@ void add_example(MapWriter& writer) {
                           {"west", "of-another-map"}}));
   for (std::uint32_t i = 0; i < 10; ++i) {
     const double from_m = 10.0 * i;
-    const Bytes frame = frame_of(3000 + 1000 * i, i);
+    const Bytes bytes = tile_bytes(3000 + 1000 * i, i);
     expect_ok(
-        writer.add_tile("east", "tracklets", i, {from_m, i == 3 ? 80 : from_m + 25}, 5 + i, frame));
+        writer.add_tile("east", "tracklets", i, {from_m, i == 3 ? 80 : from_m + 25}, 5 + i, bytes));
   }
-  expect_ok(writer.add_tile("west", "tracklets", 0, {0, 12}, 3, frame_of(50, 99)));
-  expect_ok(writer.add_tile("east", "walls", 7, {70, 71}, 1, frame_of(40, 7)));
+  expect_ok(writer.add_tile("west", "tracklets", 0, {0, 12}, 3, tile_bytes(50, 99)));
+  expect_ok(writer.add_tile("east", "walls", 7, {70, 71}, 1, tile_bytes(40, 7)));
   for (const std::uint32_t cell : kCells) {
-    expect_ok(writer.add_cell("walls", cell, 12, frame_of(500, cell)));
+    expect_ok(writer.add_cell("walls", cell, 12, tile_bytes(500, cell)));
   }
 }
 

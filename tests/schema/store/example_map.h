@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kCells[] = {
 // The shortest line that a segment can have.
 inline const std::vector<StoredVertex> kShortLine = {{49, 8, 100, 0}, {49.1, 8, 100, 1}};
 
-// Reproducible bytes that no compressor shortens, as a stored frame's.
-Bytes frame_of(std::size_t size, std::uint32_t seed);
+// Reproducible bytes that no compressor shortens, as an encoded tile's.
+Bytes tile_bytes(std::size_t size, std::uint32_t seed);
 
 // Two segments, "east" and "west", and two layers, "tracklets" and "walls". On "east" tile i of
 // "tracklets" (0 to 9) reaches from 10 i to 10 i + 25 m; tile 3 reaches further, to 80 m. "walls"

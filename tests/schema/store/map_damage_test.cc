@@ -46,11 +46,11 @@ class MapDamageTest : public ::testing::Test {
     return status.error().line();
   }
 
-  // Flips a byte in the middle of a tile's frame.
-  void damage_frame(std::uint32_t index) const {
-    const Bytes frame = testing::frame_of(3000 + 1000 * index, index);
+  // Flips a byte in the middle of a tile's bytes.
+  void damage_tile(std::uint32_t index) const {
+    const Bytes bytes = testing::tile_bytes(3000 + 1000 * index, index);
     std::string content = testing::content_of(file_);
-    const std::size_t place = content.find(as_text(ByteView(frame).subspan(1000, 32)));
+    const std::size_t place = content.find(as_text(ByteView(bytes).subspan(1000, 32)));
     ASSERT_NE(place, std::string::npos);
     content[place] = static_cast<char>(content[place] ^ 1);
     write_file(content);
@@ -157,7 +157,7 @@ TEST_F(MapDamageTest, AFileWithoutItsLastBytesIsCaughtByVerify) {
   Result<MapWriter> writer = MapWriter::create(file_);
   ASSERT_TRUE(writer->add_layer("l", "{}").ok());
   ASSERT_TRUE(writer->add_segment({"s", 1, testing::kShortLine, {}}).ok());
-  ASSERT_TRUE(writer->add_tile("s", "l", 0, {0, 1}, 1, testing::frame_of(100'000, 1)).ok());
+  ASSERT_TRUE(writer->add_tile("s", "l", 0, {0, 1}, 1, testing::tile_bytes(100'000, 1)).ok());
   ASSERT_TRUE(writer->finish().ok());
   EXPECT_EQ(verify_error(), "no error");
   const std::string whole = testing::content_of(file_);
@@ -166,7 +166,7 @@ TEST_F(MapDamageTest, AFileWithoutItsLastBytesIsCaughtByVerify) {
 }
 
 TEST_F(MapDamageTest, ADamagedFrameIsCaughtByReadingIt) {
-  damage_frame(4);
+  damage_tile(4);
   const auto reader = MapReader::open(file_);
   ASSERT_TRUE(reader.ok());
   const auto tile = reader->tile("east", "tracklets", 4);
@@ -178,7 +178,7 @@ TEST_F(MapDamageTest, ADamagedFrameIsCaughtByReadingIt) {
 }
 
 TEST_F(MapDamageTest, ADamagedFrameIsCaughtByVerify) {
-  damage_frame(9);
+  damage_tile(9);
   EXPECT_THAT(verify_error(), HasSubstr("segment east, layer tracklets, tile 9: the tile's bytes"));
 }
 
@@ -236,15 +236,15 @@ const std::vector<Change> kChanges = {
     {"MissingCell", "DELETE FROM cells WHERE number % 2 = 1", kOtherBuild},
     {"CellBytes", "UPDATE cells SET bytes = 1 WHERE number = 27820 * 72000 + 37700",
      "layer walls, cell 2003077700: the tile's bytes break its digest"},
-    {"CellFrame", "UPDATE frames SET frame = x'00' WHERE id = 12",
+    {"CellContent", "UPDATE frames SET frame = x'00' WHERE id = 12",
      "layer walls, cell 2003077700: the tile's bytes break its digest"},
-    {"MissingCellFrame", "DELETE FROM frames WHERE id = 14",
+    {"MissingCellBytes", "DELETE FROM frames WHERE id = 14",
      "layer walls, cell 2003149700: the tile's bytes break its digest"},
     {"Bounds", "UPDATE meta SET value = 1.0 WHERE key = 'west_deg'",
      "the bounds are not those of the vertices"},
-    {"MissingFrame", "DELETE FROM frames WHERE id = 5",
+    {"MissingBytes", "DELETE FROM frames WHERE id = 5",
      "tile 5: the tile's bytes break its digest"},
-    {"Frame", "UPDATE frames SET frame = x'00' WHERE id = 5",
+    {"TileContent", "UPDATE frames SET frame = x'00' WHERE id = 5",
      "tile 5: the tile's bytes break its digest"},
     {"Bytes", "UPDATE tiles SET bytes = 1 WHERE number = 5",
      "tile 5: the tile's bytes break its digest"},
@@ -274,7 +274,7 @@ TEST_F(MapDamageTest, FlippedBytesDoNoHarmUnseen) {
     ASSERT_EQ(reader->build(), build_) << "byte " << i;
     for (std::uint32_t index = 0; index < 10; ++index) {
       ASSERT_EQ(*reader->tile("east", "tracklets", index),
-                testing::frame_of(3000 + 1000 * index, index))
+                testing::tile_bytes(3000 + 1000 * index, index))
           << "byte " << i;
     }
   }

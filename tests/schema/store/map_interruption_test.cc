@@ -55,7 +55,7 @@ Status add_tiles(MapWriter& writer, std::uint32_t count) {
   if (status.ok()) status = writer.add_segment({"s", 1000, testing::kShortLine, {}});
   for (std::uint32_t i = 0; i < count && status.ok(); ++i) {
     status = writer.add_tile("s", "tracklets", i, {1.0 * i, 2.0 * i}, 1,
-                             testing::frame_of(kFrameBytes, i));
+                             testing::tile_bytes(kFrameBytes, i));
   }
   return status;
 }

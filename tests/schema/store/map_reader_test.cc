@@ -12,10 +12,10 @@ namespace milepost {
 namespace {
 
 using ::testing::ElementsAre;
-using testing::frame_of;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Pair;
+using testing::tile_bytes;
 
 class MapReaderTest : public ::testing::Test {
  protected:
@@ -74,16 +74,16 @@ TEST_F(MapReaderTest, GivesBackTheTileIndex) {
   EXPECT_EQ(entry.along.to_m, 80);
   EXPECT_EQ(entry.items, 8U);
   EXPECT_EQ(entry.bytes, 6000U);
-  EXPECT_EQ(entry.digest, digest_of(frame_of(6000, 3)));
+  EXPECT_EQ(entry.digest, digest_of(tile_bytes(6000, 3)));
   EXPECT_THAT(*reader_->tile_index("west", "walls"), IsEmpty());
 }
 
 TEST_F(MapReaderTest, GivesBackEveryFrame) {
   for (std::uint32_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(*reader_->tile("east", "tracklets", i), frame_of(3000 + 1000 * i, i));
+    EXPECT_EQ(*reader_->tile("east", "tracklets", i), tile_bytes(3000 + 1000 * i, i));
   }
-  EXPECT_EQ(*reader_->tile("west", "tracklets", 0), frame_of(50, 99));
-  EXPECT_EQ(*reader_->tile("east", "walls", 7), frame_of(40, 7));
+  EXPECT_EQ(*reader_->tile("west", "tracklets", 0), tile_bytes(50, 99));
+  EXPECT_EQ(*reader_->tile("east", "walls", 7), tile_bytes(40, 7));
 }
 
 TEST_F(MapReaderTest, GivesBackTheCells) {
@@ -95,8 +95,8 @@ TEST_F(MapReaderTest, GivesBackTheCells) {
     EXPECT_EQ((*entries)[i].cell, cell);
     EXPECT_EQ((*entries)[i].items, 12U);
     EXPECT_EQ((*entries)[i].bytes, 500U);
-    EXPECT_EQ((*entries)[i].digest, digest_of(frame_of(500, cell)));
-    EXPECT_EQ(*reader_->cell("walls", cell), frame_of(500, cell));
+    EXPECT_EQ((*entries)[i].digest, digest_of(tile_bytes(500, cell)));
+    EXPECT_EQ(*reader_->cell("walls", cell), tile_bytes(500, cell));
   }
   EXPECT_THAT(*reader_->cell_index("tracklets"), IsEmpty());
 }
@@ -193,7 +193,7 @@ TEST(MapReader, FindsATileByItsVeryEnds) {
     ranges.push_back({from_m, from_m + metres(random)});
     const std::string segment = "s" + std::to_string(i);
     ASSERT_TRUE(writer->add_segment({segment, 2000, testing::kShortLine, {}}).ok());
-    ASSERT_TRUE(writer->add_tile(segment, "l", 0, ranges.back(), 1, frame_of(9, 0)).ok());
+    ASSERT_TRUE(writer->add_tile(segment, "l", 0, ranges.back(), 1, tile_bytes(9, 0)).ok());
   }
   ASSERT_TRUE(writer->finish().ok());
   const auto reader = MapReader::open(folder / "town.map");

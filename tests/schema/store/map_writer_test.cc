@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::content_of;
 using ::testing::ElementsAre;
-using testing::frame_of;
 using ::testing::HasSubstr;
+using testing::tile_bytes;
 
 std::ptrdiff_t files_in(const fs::path& folder) {
   return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
@@ -109,8 +109,8 @@ TEST_F(MapWriterTest, TheOrderOfTheCallsIsNotInTheBuild) {
     MapWriter map = writer();
     EXPECT_TRUE(map.add_layer("l", "{}").ok());
     EXPECT_TRUE(map.add_segment({"s", 20, testing::kShortLine, {}}).ok());
-    EXPECT_TRUE(map.add_tile("s", "l", first, {0, 1}, 1, frame_of(10, first)).ok());
-    EXPECT_TRUE(map.add_tile("s", "l", second, {0, 1}, 1, frame_of(10, second)).ok());
+    EXPECT_TRUE(map.add_tile("s", "l", first, {0, 1}, 1, tile_bytes(10, first)).ok());
+    EXPECT_TRUE(map.add_tile("s", "l", second, {0, 1}, 1, tile_bytes(10, second)).ok());
     return *map.finish();
   };
   EXPECT_EQ(write(1, 2), write(2, 1));
@@ -128,7 +128,7 @@ TEST_F(MapWriterTest, ReplacesAMapWhileAReaderGoesOnReadingItsBuild) {
 
   EXPECT_TRUE(reader->verify().ok());
   EXPECT_EQ(reader->build(), old_build);
-  EXPECT_EQ(*reader->tile("east", "tracklets", 9), frame_of(12000, 9));
+  EXPECT_EQ(*reader->tile("east", "tracklets", 9), tile_bytes(12000, 9));
   EXPECT_NE(new_build, old_build);
   EXPECT_EQ(MapReader::open(file_)->build(), new_build);
   EXPECT_THAT(MapReader::open(file_)->segment_ids(), ElementsAre("new"));
@@ -221,18 +221,18 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
                    ", segment c, vertex 1: the along does not ascend from 0 on (FORMAT.md 2.5)");
   }
 
-  const Bytes frame = frame_of(10, 1);
+  const Bytes bytes = tile_bytes(10, 1);
   for (const AlongRange& along : {AlongRange{2, 1}, {nan, 1}, {0, nan}, {0, 1e8 + 1}}) {
-    expect_refused(map.add_tile("east", "walls", 8, along, 1, frame),
+    expect_refused(map.add_tile("east", "walls", 8, along, 1, bytes),
                    ", segment east, layer walls, tile 8: the along range does not go from less to "
                    "more (FORMAT.md "
                    "2.6)");
   }
   expect_refused(map.add_tile("east", "walls", 8, {0, 1}, 1, {}),
                  ", segment east, layer walls, tile 8: a tile without bytes (FORMAT.md 2.6)");
-  expect_refused(map.add_tile("east", "walls", 8, {0, 1}, std::uint64_t{1} << 63U, frame),
+  expect_refused(map.add_tile("east", "walls", 8, {0, 1}, std::uint64_t{1} << 63U, bytes),
                  ", segment east, layer walls, tile 8: a tile of too many items (FORMAT.md 2.6)");
-  expect_refused(map.add_cell("walls", kCellRows * kCellColumns, 1, frame),
+  expect_refused(map.add_cell("walls", kCellRows * kCellColumns, 1, bytes),
                  ": the grid has no cell 2592000000");
   expect_refused(map.add_cell("walls", 77, 1, {}),
                  ", layer walls, cell 77: a tile without bytes (FORMAT.md 2.6)");
@@ -244,7 +244,7 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
 TEST_F(MapWriterTest, AfterAnErrorOfSqliteThereIsNoMap) {
   MapWriter map = writer();
   testing::add_example(map);
-  const Status twice = map.add_tile("east", "walls", 7, {0, 1}, 1, frame_of(9, 7));
+  const Status twice = map.add_tile("east", "walls", 7, {0, 1}, 1, tile_bytes(9, 7));
   ASSERT_FALSE(twice.ok());
   EXPECT_EQ(twice.error().code, ErrorCode::invalid_input);
   EXPECT_THAT(twice.error().line(), HasSubstr(file_.string() + ": UNIQUE constraint failed"));
@@ -259,7 +259,7 @@ TEST_F(MapWriterTest, ACellNeedsItsLayerAndIsThereOnce) {
   for (const std::string layer : {"nowhere", "walls"}) {
     MapWriter map = writer();
     testing::add_example(map);
-    const Status status = map.add_cell(layer, testing::kCells[0], 1, frame_of(9, 7));
+    const Status status = map.add_cell(layer, testing::kCells[0], 1, tile_bytes(9, 7));
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
     EXPECT_THAT(status.error().line(), HasSubstr("constraint failed"));
@@ -269,8 +269,10 @@ TEST_F(MapWriterTest, ACellNeedsItsLayerAndIsThereOnce) {
 TEST_F(MapWriterTest, TheBoundsAreAroundTheCellsToo) {
   MapWriter map = writer();
   ASSERT_TRUE(map.add_layer("walls", "{}").ok());
-  ASSERT_TRUE(map.add_cell("walls", GridCell::at(49.101, 8.501).number(), 0, frame_of(9, 1)).ok());
-  ASSERT_TRUE(map.add_cell("walls", GridCell::at(49.106, 8.491).number(), 0, frame_of(9, 2)).ok());
+  ASSERT_TRUE(
+      map.add_cell("walls", GridCell::at(49.101, 8.501).number(), 0, tile_bytes(9, 1)).ok());
+  ASSERT_TRUE(
+      map.add_cell("walls", GridCell::at(49.106, 8.491).number(), 0, tile_bytes(9, 2)).ok());
   ASSERT_TRUE(map.finish().ok());
   const auto reader = MapReader::open(file_);
   ASSERT_TRUE(reader.ok()) << reader.error().line();
@@ -284,7 +286,7 @@ TEST_F(MapWriterTest, TheBoundsAreAroundTheCellsToo) {
 TEST_F(MapWriterTest, ATileNeedsItsSegmentAndItsLayer) {
   MapWriter map = writer();
   testing::add_example(map);
-  const Status status = map.add_tile("nowhere", "walls", 0, {0, 1}, 1, frame_of(9, 7));
+  const Status status = map.add_tile("nowhere", "walls", 0, {0, 1}, 1, tile_bytes(9, 7));
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
   EXPECT_THAT(status.error().line(), HasSubstr("FOREIGN KEY constraint failed"));

@@ -3,7 +3,7 @@
 
 #include "schema/base/file.h"
 #include "schema/tile/codec.h"
-#include "schema/tile/frame.h"
+#include "schema/tile/zstd_frame.h"
 #include "tests/schema/tile/example_landmarks.h"
 #include "tests/schema/tile/example_tile.h"
 

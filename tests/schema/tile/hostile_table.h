@@ -1,6 +1,7 @@
 // Tables as a broken or hostile writer makes them: what every kind of tile is tested with.
 #pragma once
 
+#include <flatbuffers/flatbuffers.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,8 +10,11 @@
 #include <ostream>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "schema/base/bytes.h"
+#include "schema/base/result.h"
+#include "schema/tile/zstd_frame.h"
 
 namespace milepost::testing {
 
@@ -30,6 +34,35 @@ struct Violation {
 template <class Table>
 std::string name_of(const ::testing::TestParamInfo<Violation<Table>>& test) {
   return test.param.name;
+}
+
+// A table of that kind of tile as the content of its zstd frame.
+template <class Root>
+Bytes content_of(flatbuffers::FlatBufferBuilder& builder, const Root& root,
+                 const char* identifier) {
+  builder.FinishSizePrefixed(root, identifier);
+  return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
+}
+
+// What the decoder of a kind of tile says of such a content.
+template <class Tile>
+std::string message_of(const Bytes& content, Result<Tile> (*decode)(ByteView encoded)) {
+  const Result<Tile> tile = decode(compress_frame(content));
+  return tile ? "no error" : tile.error().line();
+}
+
+// Those that break the head of tiles along a segment, before the kind's own.
+template <class Table>
+std::vector<Violation<Table>> with_broken_heads(std::vector<Violation<Table>> violations) {
+  const char* const kSegment = "the segment's id is not one (FORMAT.md 3.4)";
+  const char* const kOrigin = "the origin is not an along (FORMAT.md 3.4)";
+  violations.insert(violations.begin(),
+                    {{"EmptySegment", [](Table& t) { t.segment = ""; }, kSegment},
+                     {"SegmentWithSlash", [](Table& t) { t.segment = "a/b"; }, kSegment},
+                     {"NanOrigin", [](Table& t) { t.origin_m = kNan; }, kOrigin},
+                     {"FarOrigin", [](Table& t) { t.origin_m = 1.1e8; }, kOrigin},
+                     {"FarOriginBehind", [](Table& t) { t.origin_m = -1.1e8; }, kOrigin}});
+  return violations;
 }
 
 template <class FromTable>

@@ -9,10 +9,10 @@
 
 #include "schema/tile/codec.h"
 #include "schema/tile/columns.h"
-#include "schema/tile/frame.h"
 #include "schema/tile/landmark_steps.h"
 #include "schema/tile/landmark_tile_generated.h"
 #include "schema/tile/table.h"
+#include "schema/tile/zstd_frame.h"
 #include "tests/schema/tile/hostile_table.h"
 
 namespace milepost {
@@ -43,14 +43,10 @@ Bytes bytes_of(const Table& t, const char* identifier = "MPL1") {
       builder, t.segment.c_str(), 12, t.origin_m, t.descriptor_values, &t.descriptors,
       &t.position_low, &t.position_high, &t.depth_sigma, &t.size, &t.size_sigma, &t.begin_dm,
       &t.length_dm, &t.observations);
-  builder.FinishSizePrefixed(root, identifier);
-  return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
+  return testing::content_of(builder, root, identifier);
 }
 
-std::string message(const Bytes& content) {
-  const auto tile = decode_landmarks(compress_frame(content));
-  return tile.ok() ? "no error" : tile.error().line();
-}
+std::string message(const Bytes& content) { return testing::message_of(content, decode_landmarks); }
 
 TEST(LandmarkTable, TheSoundOneIsTaken) {
   Table table;
@@ -237,17 +233,12 @@ TEST_P(LandmarkViolation, IsNamedWithItsParagraph) {
   EXPECT_THAT(message(bytes_of(table)), HasSubstr(GetParam().message));
 }
 
-const char* const kOrigin = "the origin is not an along (FORMAT.md 3.4)";
 const char* const kPositions =
     "tile s/12: the positions are not 3 times as many as observations (FORMAT.md 5.5)";
 const char* const kDescriptors =
     "tile s/12: the length of descriptors is not 32 times that of observations (FORMAT.md 5.4)";
 
-const std::vector<Violation> kViolations = {
-    {"EmptySegment", [](Table& t) { t.segment = ""; },
-     "the segment's id is not one (FORMAT.md 3.4)"},
-    {"FarOrigin", [](Table& t) { t.origin_m = -1.1e8; }, kOrigin},
-    {"NanOrigin", [](Table& t) { t.origin_m = testing::kNan; }, kOrigin},
+const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
     {"ShortObservations", [](Table& t) { t.observations.pop_back(); },
      "tile s/12: the length of depth_sigma is not that of observations (FORMAT.md 5.3)"},
     {"LongDepthSigma", [](Table& t) { t.depth_sigma.push_back(9); },
@@ -278,7 +269,7 @@ const std::vector<Violation> kViolations = {
      "tile s/12, landmark 0: the along range is not one of alongs (FORMAT.md 5.7)"},
     {"TwoObservations", [](Table& t) { t.observations[0] = 2; },
      "tile s/12, landmark 0: fewer than 3 observations (FORMAT.md 5.8)"},
-};
+});
 
 INSTANTIATE_TEST_SUITE_P(Each, LandmarkViolation, ::testing::ValuesIn(kViolations),
                          testing::name_of<Table>);

@@ -35,7 +35,7 @@ Reading output_of(const std::string& command) {
   return reading;
 }
 
-// What the independent reader prints of a stored frame.
+// What the independent reader prints of an encoded tile.
 Reading reading_of(const Bytes& frame) {
   const testing::TempFolder folder;
   std::ofstream(folder / "tile", std::ios::binary) << as_text(frame);

@@ -9,9 +9,9 @@
 
 #include "schema/tile/codec.h"
 #include "schema/tile/columns.h"
-#include "schema/tile/frame.h"
 #include "schema/tile/table.h"
 #include "schema/tile/wall_tile_generated.h"
+#include "schema/tile/zstd_frame.h"
 #include "tests/schema/tile/hostile_table.h"
 
 namespace milepost {
@@ -36,14 +36,10 @@ Bytes bytes_of(const Table& t, const char* identifier = "MPW1") {
   flatbuffers::FlatBufferBuilder builder;
   const auto root = fbs::CreateWallTileDirect(builder, t.cell, &t.begin_north, &t.begin_east,
                                               &t.way_north, &t.way_east, &t.sigma_cm);
-  builder.FinishSizePrefixed(root, identifier);
-  return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
+  return testing::content_of(builder, root, identifier);
 }
 
-std::string message(const Bytes& content) {
-  const auto tile = decode_walls(compress_frame(content));
-  return tile.ok() ? "no error" : tile.error().line();
-}
+std::string message(const Bytes& content) { return testing::message_of(content, decode_walls); }
 
 TEST(WallTable, TheSoundOneIsTaken) {
   const auto tile = decode_walls(compress_frame(bytes_of({})));

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
+
+#include "schema/base/digits.h"
 
 namespace milepost::plot {
 namespace {
@@ -64,14 +65,6 @@ std::string_view reference(std::uint32_t code) {
     default:
       return {};
   }
-}
-
-std::string fixed(double value, int decimals) {
-  // The longest double in fixed notation has 309 digits before the point.
-  std::array<char, 400> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::fixed, std::min(decimals, 20));
-  return {buffer.data(), end.ptr};
 }
 
 bool is_zero(std::string_view digits) {

@@ -1,6 +1,6 @@
 // Frames that another program could have made of a tile's content, but FORMAT.md 3.2 does not
 // allow.
-#include "schema/tile/frame.h"
+#include "schema/tile/zstd_frame.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

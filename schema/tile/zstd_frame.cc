@@ -1,4 +1,4 @@
-#include "schema/tile/frame.h"
+#include "schema/tile/zstd_frame.h"
 
 #include <zstd.h>
 #include <zstd_errors.h>

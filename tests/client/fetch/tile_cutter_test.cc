@@ -1,4 +1,4 @@
-#include "client/fetch/frame_cutter.h"
+#include "client/fetch/tile_cutter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,13 +13,13 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class FrameCutterTest : public ::testing::Test {
+class TileCutterTest : public ::testing::Test {
  protected:
-  FrameCutter cutter() {
+  TileCutter cutter() {
     return {"http://here/",
-            {expected_frame(map_.index[2]), expected_frame(map_.index[3])},
+            {expected_tile(map_.index[2]), expected_tile(map_.index[3])},
             [this](std::uint32_t index, const Bytes& f) {
-              EXPECT_EQ(f, map_.frame(index));
+              EXPECT_EQ(f, map_.encoded_tile(index));
               received_.push_back(index);
             }};
   }
@@ -29,10 +29,10 @@ class FrameCutterTest : public ::testing::Test {
   std::vector<std::uint32_t> received_;
 };
 
-TEST_F(FrameCutterTest, CutsWhereverThePiecesEnd) {
+TEST_F(TileCutterTest, CutsWhereverThePiecesEnd) {
   for (std::size_t piece = 1; piece <= body_.size(); piece += 37) {
     received_.clear();
-    FrameCutter cut = cutter();
+    TileCutter cut = cutter();
     for (std::size_t at = 0; at < body_.size(); at += piece) {
       ASSERT_TRUE(cut.take(as_bytes(std::string_view(body_).substr(at, piece))).ok());
     }
@@ -41,8 +41,8 @@ TEST_F(FrameCutterTest, CutsWhereverThePiecesEnd) {
   }
 }
 
-TEST_F(FrameCutterTest, ATileIsReceivedAsSoonAsItIsWhole) {
-  FrameCutter cut = cutter();
+TEST_F(TileCutterTest, ATileIsReceivedAsSoonAsItIsWhole) {
+  TileCutter cut = cutter();
   ASSERT_TRUE(cut.take(as_bytes(body_.substr(0, 1020))).ok());
   EXPECT_EQ(cut.received(), 1U);
   const Status finished = cut.finish();
@@ -51,11 +51,11 @@ TEST_F(FrameCutterTest, ATileIsReceivedAsSoonAsItIsWhole) {
   EXPECT_THAT(finished.error().line(), HasSubstr("tile 3"));
 }
 
-TEST_F(FrameCutterTest, AnyWrongByteIsFound) {
+TEST_F(TileCutterTest, AnyWrongByteIsFound) {
   for (std::size_t at = 0; at < body_.size(); at += 101) {
     std::string spoiled = body_;
     spoiled[at] ^= 4;
-    FrameCutter cut = cutter();
+    TileCutter cut = cutter();
     const Status taken = cut.take(as_bytes(spoiled));
     ASSERT_FALSE(taken.ok()) << at;
     EXPECT_EQ(taken.error().code, ErrorCode::corrupt);
@@ -64,8 +64,8 @@ TEST_F(FrameCutterTest, AnyWrongByteIsFound) {
   }
 }
 
-TEST_F(FrameCutterTest, NothingMayFollow) {
-  FrameCutter cut = cutter();
+TEST_F(TileCutterTest, NothingMayFollow) {
+  TileCutter cut = cutter();
   EXPECT_FALSE(cut.take(as_bytes(body_ + "x")).ok());
 }
 

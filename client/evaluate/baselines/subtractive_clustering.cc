@@ -1,4 +1,4 @@
-#include "client/global/subtractive_clustering.h"
+#include "client/evaluate/baselines/subtractive_clustering.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "client/fetch/frame_cutter.h"
+#include "client/fetch/tile_cutter.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,10 +7,10 @@
 
 namespace milepost {
 
-FrameCutter::FrameCutter(std::string where, std::vector<ExpectedFrame> expected, Receiver receive)
+TileCutter::TileCutter(std::string where, std::vector<ExpectedTile> expected, Receiver receive)
     : where_(std::move(where)), expected_(std::move(expected)), receive_(std::move(receive)) {}
 
-Status FrameCutter::take(ByteView piece) {
+Status TileCutter::take(ByteView piece) {
   while (!piece.empty()) {
     if (received_ == expected_.size()) return wrong("bytes follow the last tile of the range");
     const std::size_t lacking = expected_[received_].bytes - begun_.size();
@@ -18,30 +18,30 @@ Status FrameCutter::take(ByteView piece) {
     begun_.insert(begun_.end(), part.begin(), part.end());
     piece = piece.subspan(part.size());
     if (part.size() < lacking) continue;
-    Status completed = complete_frame();
+    Status completed = complete_tile();
     if (!completed.ok()) return completed;
   }
   return ok_status();
 }
 
-Status FrameCutter::complete_frame() {
-  const ExpectedFrame& frame = expected_[received_];
-  if (digest_of(begun_) != frame.digest) {
-    return wrong("the bytes of tile " + std::to_string(frame.number) +
+Status TileCutter::complete_tile() {
+  const ExpectedTile& tile = expected_[received_];
+  if (digest_of(begun_) != tile.digest) {
+    return wrong("the bytes of tile " + std::to_string(tile.number) +
                  " do not have the digest that the index gives");
   }
   ++received_;
-  receive_(frame.number, std::exchange(begun_, {}));
+  receive_(tile.number, std::exchange(begun_, {}));
   return ok_status();
 }
 
-Status FrameCutter::finish() const {
+Status TileCutter::finish() const {
   if (received_ == expected_.size()) return ok_status();
   return wrong("the answer ends before the end of tile " +
                std::to_string(expected_[received_].number));
 }
 
-Error FrameCutter::wrong(const std::string& what) const {
+Error TileCutter::wrong(const std::string& what) const {
   return {ErrorCode::corrupt, where_, what,
           "verify the server's map and check what lies between here and the server"};
 }

@@ -1,0 +1,39 @@
+// Where rays meet: triangulation without iterating.
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Dense>
+
+namespace milepost {
+
+// Sums over rays for the point with the least weighted sum of squared distances from them.
+class MeetingRays {
+ public:
+  // REQUIRES: `direction` is a unit vector; weight > 0.
+  void add(const Eigen::Vector3d& from_m, const Eigen::Vector3d& direction, double weight = 1) {
+    const Eigen::Matrix3d across =
+        (Eigen::Matrix3d::Identity() - direction * direction.transpose()) * weight;
+    information_ += across;
+    sum_ += across * from_m;
+  }
+
+  // Weights as inverse variances: the inverse of the point's covariance.
+  const Eigen::Matrix3d& information() const { return information_; }
+
+  // Nothing where the rays are parallel.
+  std::optional<Eigen::Vector3d> point_m() const {
+    constexpr double kParallel = 1e-12;
+    const Eigen::LDLT<Eigen::Matrix3d> solver(information_);
+    if (solver.info() != Eigen::Success || solver.vectorD().minCoeff() < kParallel) {
+      return std::nullopt;
+    }
+    return solver.solve(sum_);
+  }
+
+ private:
+  Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace milepost
