@@ -309,7 +309,7 @@ int run_find(const std::string& program, std::vector<std::string> words) {
   }
   if (!written.ok()) return fail(program, written.error());
   report_stream(options.out) << summary_line(found->frames, options.out) << "\n";
-  return kExitDone;
+  return found->outage ? fail(program, *found->outage) : kExitDone;
 }
 
 }  // namespace milepost

@@ -28,4 +28,11 @@ std::span<const Odometry> SensorLog::odometry_until(double timestamp_s) {
   return taken_until(timestamp_s, odometry_);
 }
 
+Fix fix_without_map(double timestamp_s, bool had_fix) {
+  Fix fix;
+  fix.timestamp_s = timestamp_s;
+  fix.status = had_fix ? FixStatus::lost : FixStatus::initializing;
+  return fix;
+}
+
 }  // namespace milepost

@@ -25,6 +25,9 @@ class SensorLog {
   std::span<const Odometry> odometry_;
 };
 
+// Of a frame whose map did not come.
+Fix fix_without_map(double timestamp_s, bool had_fix);
+
 class Stopwatch {
  public:
   double ms() const {

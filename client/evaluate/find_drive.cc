@@ -20,6 +20,7 @@ class Successor {
 
   void observe(const Odometry& wheels) { localizer_.observe(wheels); }
 
+  // A map that does not come costs this frame only. Errors: those of a map that it cannot use.
   Result<FrameFix> localize(const Frame& frame, const cv::Mat& gray, const FindFix& found,
                             const Stopped& stopped) {
     if (found.status == FindStatus::tracking) {
@@ -36,12 +37,23 @@ class Successor {
                              return *features;
                            }};
     Result<Fix> fix = localizer_.localize(query);
-    if (!fix) return fix.error();
-    return FrameFix{frame.filename, std::move(*fix), watch.ms(), {}};
+    const double latency_ms = watch.ms();
+    if (!fix) {
+      if (!had_fix_ && fix.error().code != ErrorCode::unavailable) return fix.error();
+      outage_ = fix.error();
+      fix = fix_without_map(frame.timestamp_s, had_fix_);
+    }
+    if (localizer_.noted_error()) outage_ = localizer_.noted_error();
+    had_fix_ = had_fix_ || fix->along_m.has_value();
+    return FrameFix{frame.filename, std::move(*fix), latency_ms, {}};
   }
+
+  const std::optional<Error>& outage() const { return outage_; }
 
  private:
   Localizer localizer_;
+  bool had_fix_ = false;
+  std::optional<Error> outage_;
 };
 
 }  // namespace
@@ -75,6 +87,7 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
       Result<FrameFix> localized = successor->localize(frame, *gray, fix, run.stopped);
       if (!localized) return localized.error();
       found.localized.push_back(std::move(*localized));
+      found.outage = successor->outage();
     }
     if (!run.on_frame(i, fix, finder)) {
       return Error{ErrorCode::cancelled, drive.folder.string(),

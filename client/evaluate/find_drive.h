@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct FoundFrame {
 struct FoundDrive {
   std::vector<FoundFrame> frames;   // one a frame
   std::vector<FrameFix> localized;  // the same of the route localizer; empty without one
+  std::optional<Error> outage;      // a failure of its source that was driven through
 };
 
 struct FindRun {
@@ -37,7 +39,8 @@ struct FindRun {
 };
 
 // Recorded positions of frames and the receiver's are never looked at. Errors: those of
-// FrameReader::gray; invalid_input for a drive without odometry.csv.
+// FrameReader::gray; invalid_input for a drive without odometry.csv; those of a map that the
+// localizer cannot use.
 Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls,
                               const FindRun& run);
 

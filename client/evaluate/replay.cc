@@ -138,10 +138,7 @@ Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, const Tile
     const bool may_come = fix.error().code == ErrorCode::unavailable && !patience.is_fresh();
     if (!runner.had_fix && !may_come) return fix.error();
     replay.outage = fix.error();
-    Fix without_map;
-    without_map.timestamp_s = frame.timestamp_s;
-    without_map.status = runner.had_fix ? FixStatus::lost : FixStatus::initializing;
-    fix = without_map;
+    fix = fix_without_map(frame.timestamp_s, runner.had_fix);
   }
   runner.had_fix = runner.had_fix || fix->along_m.has_value();
   if (runner.localizer.noted_error()) replay.outage = runner.localizer.noted_error();

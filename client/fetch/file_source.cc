@@ -43,37 +43,48 @@ MapDescription description_of(const MapReader& reader) {
   return description;
 }
 
-class FileSource : public MapSource, public std::enable_shared_from_this<FileSource> {
+// What the sources of one file share.
+struct OpenFile {
+  explicit OpenFile(MapReader opened)
+      : reader(std::move(opened)), description(description_of(reader)) {}
+
+  std::mutex mutex;  // guards the reader and what is read
+  MapReader reader;
+  const MapDescription description;
+  std::optional<std::vector<KnownLine>> lines;
+};
+
+class FileSource : public MapSource {
  public:
-  explicit FileSource(MapReader reader)
-      : reader_(std::move(reader)), description_(description_of(reader_)) {}
+  explicit FileSource(std::shared_ptr<OpenFile> file, Stopped stopped = {})
+      : file_(std::move(file)), stopped_(std::move(stopped)) {}
 
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                    double radius_m) override {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(file_->mutex);
     Status ready = check_near_query(position, radius_m);
     if (ready.ok()) ready = load_lines();
     if (!ready.ok()) return ready.error();
-    return lines_near(*lines_, position, radius_m);
+    return lines_near(*file_->lines, position, radius_m);
   }
 
   Result<std::vector<MapVersion>> maps() override {
-    return std::vector<MapVersion>{description_.version};
+    return std::vector<MapVersion>{file_->description.version};
   }
 
   Result<MapDescription> describe(const MapVersion& version) override {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(file_->mutex);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    return description_;
+    return file_->description;
   }
 
   Result<SegmentDescription> segment(const MapVersion& version,
                                      const std::string& segment) override {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(file_->mutex);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    const Result<StoredSegment> stored = reader_.segment(segment);
+    const Result<StoredSegment> stored = file_->reader.segment(segment);
     if (!stored.ok()) return stored.error();
     return description_of(*stored);
   }
@@ -81,14 +92,15 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
   Result<std::vector<EncodedTile>> tiles(const MapVersion& version, const std::string& segment,
                                          const std::string& layer,
                                          const AlongRange& range) override {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(file_->mutex);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    const auto entries = reader_.tiles_in(segment, layer, range);
+    const auto entries = file_->reader.tiles_in(segment, layer, range);
     if (!entries.ok()) return entries.error();
     std::vector<EncodedTile> tiles;
     for (const TileEntry& entry : *entries) {
-      Result<Bytes> tile = reader_.tile(segment, layer, entry.index);
+      if (is_stopped(stopped_)) return cancelled(file_->reader.file().string());
+      Result<Bytes> tile = file_->reader.tile(segment, layer, entry.index);
       if (!tile.ok()) return tile.error();
       tiles.push_back({entry.index, std::move(tile).value()});
     }
@@ -97,15 +109,16 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
 
   Result<std::vector<EncodedCell>> cells(const MapVersion& version, const std::string& layer,
                                          const Bounds& box) override {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(file_->mutex);
     Status checked = check_area_query(box);
     if (checked.ok()) checked = check(version);
     if (!checked.ok()) return checked.error();
-    const auto entries = reader_.cells_in(layer, box);
+    const auto entries = file_->reader.cells_in(layer, box);
     if (!entries.ok()) return entries.error();
     std::vector<EncodedCell> tiles;
     for (const CellEntry& entry : *entries) {
-      Result<Bytes> tile = reader_.cell(layer, entry.cell);
+      if (is_stopped(stopped_)) return cancelled(file_->reader.file().string());
+      Result<Bytes> tile = file_->reader.cell(layer, entry.cell);
       if (!tile.ok()) return tile.error();
       tiles.push_back({entry.cell, std::move(tile).value()});
     }
@@ -114,10 +127,10 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
 
   Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
                                     const std::string& layer) override {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(file_->mutex);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    const auto index = reader_.tile_index(segment, layer);
+    const auto index = file_->reader.tile_index(segment, layer);
     if (!index.ok()) return index.error();
     return bytes_of(*index);
   }
@@ -126,19 +139,19 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
 
   Result<std::vector<TileEntry>> tile_index(const MapVersion& version, const std::string& segment,
                                             const std::string& layer) override {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(file_->mutex);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    return reader_.tile_index(segment, layer);
+    return file_->reader.tile_index(segment, layer);
   }
 
   Result<std::optional<Bytes>> stored_tile(const MapVersion& version, const std::string& segment,
                                            const std::string& layer,
                                            const TileEntry& entry) override {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(file_->mutex);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    Result<Bytes> tile = reader_.tile(segment, layer, entry.index);
+    Result<Bytes> tile = file_->reader.tile(segment, layer, entry.index);
     if (!tile.ok()) return tile.error();
     return std::optional<Bytes>(std::move(tile).value());
   }
@@ -154,41 +167,40 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
     return {};
   }
 
-  // No call takes long.
-  std::shared_ptr<MapSource> until(Stopped /*stopped*/, Asking /*asking*/) override {
-    return shared_from_this();
+  std::shared_ptr<MapSource> until(Stopped stopped, Asking /*asking*/) override {
+    return std::make_shared<FileSource>(file_, [first = stopped_, second = std::move(stopped)] {
+      return is_stopped(first) || is_stopped(second);
+    });
   }
 
  private:
   Status check(const MapVersion& version) const {
-    if (version == description_.version) return ok_status();
-    const std::string file = reader_.file().string();
-    if (version.map != description_.version.map) {
+    if (version == file_->description.version) return ok_status();
+    const std::string file = file_->reader.file().string();
+    if (version.map != file_->description.version.map) {
       return Error{ErrorCode::not_found, file, "this is not the map \"" + version.map + "\"", ""};
     }
     return Error{ErrorCode::gone, file,
                  "the map was rebuilt: build " + version.build + " is gone, the current one is " +
-                     description_.version.build,
+                     file_->description.version.build,
                  "ask for the map's current build"};
   }
 
   // Once; the file never changes under an open reader.
   Status load_lines() {
-    if (lines_.has_value()) return ok_status();
+    if (file_->lines.has_value()) return ok_status();
     std::vector<KnownLine> lines;
-    for (const std::string& id : reader_.segment_ids()) {
-      const Result<StoredSegment> stored = reader_.segment(id);
+    for (const std::string& id : file_->reader.segment_ids()) {
+      const Result<StoredSegment> stored = file_->reader.segment(id);
       if (!stored.ok()) return stored.error();
-      add_line(description_.version, description_of(*stored), lines);
+      add_line(file_->description.version, description_of(*stored), lines);
     }
-    lines_ = std::move(lines);
+    file_->lines = std::move(lines);
     return ok_status();
   }
 
-  std::mutex mutex_;  // guards the reader and what is read
-  MapReader reader_;
-  const MapDescription description_;
-  std::optional<std::vector<KnownLine>> lines_;
+  std::shared_ptr<OpenFile> file_;
+  Stopped stopped_;
 };
 
 }  // namespace
@@ -196,7 +208,8 @@ class FileSource : public MapSource, public std::enable_shared_from_this<FileSou
 Result<std::shared_ptr<MapSource>> open_file_source(const std::filesystem::path& map_file) {
   Result<MapReader> reader = MapReader::open(map_file);
   if (!reader.ok()) return reader.error();
-  return std::shared_ptr<MapSource>(std::make_shared<FileSource>(std::move(reader).value()));
+  return std::shared_ptr<MapSource>(
+      std::make_shared<FileSource>(std::make_shared<OpenFile>(std::move(reader).value())));
 }
 
 }  // namespace milepost

@@ -164,5 +164,18 @@ TEST_F(FileSourceTest, SeveralThreadsShareASource) {
   for (std::thread& thread : threads) thread.join();
 }
 
+TEST_F(FileSourceTest, StopsBetweenTilesOnceItIsTold) {
+  int asked = 0;
+  const auto hurried =
+      source_->until([&] { return ++asked > 3; }, MapSource::Asking::as_often_as_set);
+  const auto tiles = hurried->tiles(version_, "s1", "tracklets", {0, 200});
+  ASSERT_FALSE(tiles.ok());
+  EXPECT_EQ(tiles.error().code, ErrorCode::cancelled);
+  EXPECT_EQ(asked, 4);
+  EXPECT_EQ(hurried->cells(version_, "walls", {-180, -90, 180, 90}).error().code,
+            ErrorCode::cancelled);
+  EXPECT_TRUE(source_->tiles(version_, "s1", "tracklets", {0, 200}).ok());
+}
+
 }  // namespace
 }  // namespace milepost::testing
