@@ -47,7 +47,7 @@ PAGE = """<!DOCTYPE html>
 
 def page_style():
     """The client's style sheet, which is the one place where the look is told, and what is added to it."""
-    return (PROJECT / "client/evaluate/report/report.css").read_text(encoding="utf-8") + STYLE
+    return (PROJECT / "client/evaluate/report/page/page.css").read_text(encoding="utf-8") + STYLE
 
 
 def legend(methods):
