@@ -146,11 +146,29 @@ class Reports(CommandTest):
                          ["milepost", "2σ of milepost", "inverse-scale", "tracklet-regression"])
         for plot, colours in enumerate((3, 1, 3, 3, 3, 2, 3)):
             self.expect_drawn(page, plot, colours)
+        self.check_lanes(page)
+        self.check_ticks(page)
         self.check_cursor(page, along, plan, rows_of(out / "fixes-milepost.csv")[FRAME])
         self.check_zoom(page, along)
         self.check_plan(page, plan)
         self.check_keys(page, along)
         self.expect_quiet(page, out / "report.html")
+
+    def check_lanes(self, page):
+        """The first frame of each method was not tracked: a pale mark in its lane, beneath the plotting area."""
+        lanes, (left, bottom) = page.ask("""const {spec, chart: {chartArea: {left, bottom}}} = plots[0];
+                                            return [spec.lanes, [left, bottom]]""")
+        self.assertEqual([lane["marks"][0][2] for lane in lanes], ["initializing"] * len(METHODS))
+        beneath = page.picture(0).crop((2 * int(left) - 4, 2 * int(bottom) + 8, 2 * int(left) + 6, 2 * int(bottom) + 8 + 18 * len(METHODS)))
+        pale = [count for count, colour in beneath.getcolors(1 << 16) if abs(colour[3] - 102) < 3]
+        self.assertGreater(sum(pale), 50 * len(METHODS))
+
+    def check_ticks(self, page):
+        """The ends of an axis have ticks, also where a binary fraction is a little short of a multiple."""
+        ends = page.ask("""const axis = {min: -0.3, max: 0.3}; widen(axis); setRange(plots[0], 'y', [axis.min, axis.max]);
+                           plots[0].chart.update('none'); const {ticks} = plots[0].chart.scales.y; reset(plots[0]);
+                           return [ticks[0].label, ticks.at(-1).label]""")
+        self.assertEqual(ends, ["−0.3", "0.3"])
 
     def check_cursor(self, page, along, plan, row):
         """The values of a frame are those of the table, whichever plot the pointer is in."""
@@ -270,8 +288,9 @@ class Reports(CommandTest):
             self.expect_drawn(page, plot, 1)
         for plot in plans:
             self.expect_drawn(page, plot, 2)
-            blue = [colour for _, colour in page.picture(plot).getcolors(1 << 24) if colour[2] > colour[0] + 40 and 100 < colour[3] < 200]
-            self.assertTrue(blue, "the picture from above is not drawn")
+            picture = page.picture(plot)  # 60 % of the one from above, which is larger than the plans
+            beneath = sum(count for count, colour in picture.getcolors(1 << 24) if abs(colour[3] - 153) < 3)
+            self.assertGreater(beneath, 0.3 * picture.width * picture.height)
         row = rows_of(self.folder / "found.csv")[FRAME]
         page.mouse("mouseMoved", *page.place(over_time[0], FRAME))
         page.settled()

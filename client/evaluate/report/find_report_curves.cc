@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "client/evaluate/report/find_report_figures.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_numbers.h"
 #include "client/evaluate/statistics.h"
 
@@ -33,35 +34,15 @@ Json time_plot(const FoundSeries& series, const std::string& description, int he
           {"layers", Json::array()}};
 }
 
-Json line(const char* name, const char* colour, double width_px, const Json& y) {
-  return {{"kind", "line"},       {"name", name},  {"colour", colour},
-          {"width_px", width_px}, {"x", "time_s"}, {"y", y}};
-}
-
 void add_found_line(Json& plot, const FoundSeries& series) {
   if (!series.summary.found_frame) return;
   const Json at_s = rounded(series.time_s[*series.summary.found_frame], 3);
-  const Json bottom = plot["y"]["min"];
   const Json top = plot["y"]["max"];
-  plot["layers"].push_back({{"kind", "line"},
-                            {"colour", "ink"},
-                            {"width_px", 1},
-                            {"dash", {3, 3}},
-                            {"x", {at_s, at_s}},
-                            {"y", {bottom, top}}});
-  plot["layers"].push_back({{"kind", "texts"},
-                            {"x", Json::array({at_s})},
-                            {"y", Json::array({top})},
-                            {"text", Json::array({"found"})},
-                            {"shift_px", {5, 13}}});
-}
-
-Json status_keys() {
-  Json keys = Json::array();
-  for (const FindStatus status : kStatuses) {
-    keys.push_back({{"kind", "status"}, {"name", name_of(status)}});
-  }
-  return keys;
+  Json line = line_layer("", "ink", 1, {at_s, at_s}, {plot["y"]["min"], top});
+  line["dash"] = {3, 3};
+  plot["layers"].push_back(line);
+  plot["layers"].push_back(texts_layer(Json::array({"found"}), {"left", 5, 13}, Json::array({at_s}),
+                                       Json::array({top})));
 }
 
 // Whole powers of ten about the values.
@@ -97,15 +78,12 @@ Figure error_figure(const FoundSeries& series, const std::string& heading, const
   std::vector<double> all = errors;
   all.insert(all.end(), two_sigmas.begin(), two_sigmas.end());
   Json plot = time_plot(series, heading, height_px, error_axis(label, all));
-  plot["layers"].push_back({{"kind", "area"},
-                            {"name", "up to 2\u03C3 as reported"},
-                            {"colour", "band"},
-                            {"x", "time_s"},
-                            {"y", on_axis(two_sigmas, plot["y"])}});
-  plot["layers"].push_back(line("error", "m0", 1.8, on_axis(errors, plot["y"])));
+  plot["layers"].push_back(
+      area_layer("up to 2\u03C3 as reported", "band", "time_s", on_axis(two_sigmas, plot["y"])));
+  plot["layers"].push_back(line_layer("error", "m0", 1.8, "time_s", on_axis(errors, plot["y"])));
   add_found_line(plot, series);
   figure.plots.push_back(plot);
-  figure.keys = status_keys();
+  for (const FindStatus status : kStatuses) figure.keys.push_back(status_key(name_of(status)));
   return figure;
 }
 
@@ -181,11 +159,11 @@ Figure belief_figure(const FoundSeries& series) {
       "share of what was seen lately that the walls there explain. A vehicle counts as found when "
       "both are high for some way, and as lost when one falls low.";
   Json plot = time_plot(series, figure.heading, 160, axis("share", 0, 1));
-  plot["layers"].push_back(line("inlier ratio", "m1", 1.1, "inlier_ratio"));
-  plot["layers"].push_back(line("mode probability", "m0", 1.8, "mode_probability"));
+  plot["layers"].push_back(line_layer("inlier ratio", "m1", 1.1, "time_s", "inlier_ratio"));
+  plot["layers"].push_back(line_layer("mode probability", "m0", 1.8, "time_s", "mode_probability"));
   add_found_line(plot, series);
   figure.plots.push_back(plot);
-  figure.keys = status_keys();
+  for (const FindStatus status : kStatuses) figure.keys.push_back(status_key(name_of(status)));
   return figure;
 }
 

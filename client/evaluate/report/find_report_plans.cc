@@ -7,6 +7,7 @@
 
 #include "client/evaluate/report/find_plan_areas.h"
 #include "client/evaluate/report/find_report_figures.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_numbers.h"
 
 namespace milepost {
@@ -22,7 +23,7 @@ struct StatusDot {
   const char* colour;
   const char* fill;
   double radius_px;
-  double stroke_px;
+  double edge_px;
 };
 
 constexpr std::array<StatusDot, 4> kStatusDots = {{
@@ -31,15 +32,6 @@ constexpr std::array<StatusDot, 4> kStatusDots = {{
     {FindStatus::predicted, "m0", "page", 2.6, 1.5},
     {FindStatus::tracking, "page", "m0", 2.6, 0.8},
 }};
-
-Json line(const char* name, const char* colour, double width_px) {
-  return {{"kind", "line"}, {"name", name}, {"colour", colour}, {"width_px", width_px}};
-}
-
-Json dots(const char* name, const char* colour, const char* fill, double radius, double stroke_px) {
-  return {{"kind", "dots"}, {"name", name},     {"colour", colour},
-          {"fill", fill},   {"radius", radius}, {"stroke_px", stroke_px}};
-}
 
 // What a layer shows; it has no name, for a legend names it.
 Json with_points(Json layer, const std::vector<PlanPoint>& points) {
@@ -53,21 +45,16 @@ Json cased(Json layer) {
   return layer;
 }
 
-Json wall_look() { return line("wall", "wall", 1.4); }
-Json particle_look() { return dots("particle, with its heading", "particle", "particle", 1.5, 0); }
-Json recorded_look() { return line("recorded path so far", "m2", 2.2); }
-Json here_look() { return dots("where it really is", "m2", "clear", 5, 2.5); }
-Json tracked_look() { return line("tracked path so far", "m0", 1.8); }
+Json particle_look() { return dots_layer("particle, with its heading", "particle", 1.5); }
+Json recorded_look() { return line_layer("recorded path so far", "m2", 2.2); }
+Json here_look() { return circles_layer("where it really is", "m2", "clear", 5, 2.5); }
+Json tracked_look() { return line_layer("tracked path so far", "m0", 1.8); }
 Json estimate_look() {
-  return dots("densest place, with its heading and, while tracked, 2\u03C3", "page", "m0", 3, 0.8);
+  return circles_layer("densest place, with its heading and, while tracked, 2\u03C3", "page", "m0",
+                       3, 0.8);
 }
 
-Json walls() {
-  Json layer = wall_look();
-  layer["x"] = "wall_east_m";
-  layer["y"] = "wall_north_m";
-  return layer;
-}
+Json walls() { return line_layer("wall", "wall", 1.4, "wall_east_m", "wall_north_m"); }
 
 // Dots, and a stroke from each to where it heads.
 void add_particles(Json& layers, const FindSnapshot& snapshot, const PlanArea& area) {
@@ -83,8 +70,8 @@ void add_particles(Json& layers, const FindSnapshot& snapshot, const PlanArea& a
   Json strokes = with_points(particle_look(), places);
   strokes["marker"] = "dash";
   strokes["rotation_deg"] = rotations_deg;
-  strokes["radius"] = 7;
-  strokes["stroke_px"] = 1;
+  strokes["radius_px"] = 7;
+  strokes["edge_px"] = 1;
   layers.push_back(strokes);
   layers.push_back(with_points(particle_look(), places));
 }
@@ -167,7 +154,8 @@ void add_found(Json& layers, const FoundSeries& series) {
       if ((*series.input->frames)[i].fix.status == dot.status) points.push_back(series.found[i]);
     }
     layers.push_back(with_points(
-        dots(name_of(dot.status), dot.colour, dot.fill, dot.radius_px, dot.stroke_px), points));
+        circles_layer(name_of(dot.status), dot.colour, dot.fill, dot.radius_px, dot.edge_px),
+        points));
   }
 }
 
@@ -178,9 +166,8 @@ void add_snapshot_numbers(Json& layers, const FoundSeries& series) {
     places.push_back(series.recorded[series.snapshots[k].frame]);
     numbers.push_back(std::to_string(k + 1));
   }
-  layers.push_back(with_points(dots("snapshot", "m2", "clear", 5, 2.5), places));
-  layers.push_back(
-      with_points({{"kind", "texts"}, {"text", numbers}, {"shift_px", {9, -6}}}, places));
+  layers.push_back(with_points(circles_layer("snapshot", "m2", "clear", 5, 2.5), places));
+  layers.push_back(texts_layer(numbers, {"left", 9, -6}, easts(places), norths(places)));
 }
 
 std::string base64_of(ByteView bytes) {
@@ -206,8 +193,7 @@ Json json_of(const PagePicture& picture, const LocalFrame& frame) {
 }  // namespace
 
 Json plan_keys() {
-  return {wall_look(), particle_look(), recorded_look(),
-          here_look(), tracked_look(),  estimate_look()};
+  return {walls(), particle_look(), recorded_look(), here_look(), tracked_look(), estimate_look()};
 }
 
 std::vector<Figure> snapshot_figures(const FoundSeries& series) {
@@ -230,9 +216,7 @@ Figure path_figure(const FoundSeries& series) {
   Json plot = plan_plot(path_area(series), "The recorded path and what was found in plan view");
   Json& layers = plot["layers"];
   layers.push_back(walls());
-  Json recorded = cased(line("recorded path", "m2", 2.2));
-  recorded["x"] = "east_m";
-  recorded["y"] = "north_m";
+  Json recorded = cased(line_layer("recorded path", "m2", 2.2, "east_m", "north_m"));
   layers.push_back(recorded);
   add_found(layers, series);
   add_snapshot_numbers(layers, series);

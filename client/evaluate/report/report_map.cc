@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "client/evaluate/report/report_figures.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_plan.h"
 
 namespace milepost {
@@ -90,12 +91,6 @@ PlanArea area_of(const PlanView& plan) {
   return area;
 }
 
-Json dots(const std::string& name, const char* colour, double radius,
-          const std::vector<PlanPoint>& points) {
-  return {{"kind", "dots"},   {"name", name},       {"colour", colour},
-          {"radius", radius}, {"x", easts(points)}, {"y", norths(points)}};
-}
-
 // The worst on top, where they cannot be missed.
 void add_fixes(Json& layers, const PlanView& plan, const MethodSeries& method) {
   for (std::size_t k = 0; k < kErrorClasses.size(); ++k) {
@@ -105,7 +100,8 @@ void add_fixes(Json& layers, const PlanView& plan, const MethodSeries& method) {
       if (!std::isnan(error_m) && class_of(error_m) == k) points.push_back(plan.fixes[i]);
     }
     const ErrorClass& each = kErrorClasses.at(k);
-    layers.push_back(dots(each.words, each.colour, each.radius_px, points));
+    layers.push_back(
+        dots_layer(each.words, each.colour, each.radius_px, easts(points), norths(points)));
   }
 }
 
@@ -114,10 +110,8 @@ Json frames_without_fix(const PlanView& plan, const MethodSeries& method) {
   for (std::size_t i = 0; i < std::min(plan.path.size(), method.error_m.size()); ++i) {
     if (std::isnan(method.error_m[i])) points.push_back(plan.path[i]);
   }
-  Json layer = dots("frame without a fix", "muted", 2.5, points);
-  layer["fill"] = "page";
-  layer["stroke_px"] = 1.2;
-  return layer;
+  return circles_layer("frame without a fix", "muted", "page", 2.5, 1.2, easts(points),
+                       norths(points));
 }
 
 void add_ends(Json& layers, const std::vector<PlanPoint>& path) {
@@ -128,27 +122,13 @@ void add_ends(Json& layers, const std::vector<PlanPoint>& path) {
   // Away from the path, which lies on the other side of each end's name.
   const bool heads_north = end->y >= start->y;
   const auto add = [&](const PlanPoint& at, const char* word, bool is_below) {
-    layers.push_back({{"kind", "dots"},
-                      {"colour", "ink"},
-                      {"fill", "clear"},
-                      {"radius", 5},
-                      {"stroke_px", 1.5},
-                      {"x", easts({at})},
-                      {"y", norths({at})}});
-    layers.push_back({{"kind", "texts"},
-                      {"x", easts({at})},
-                      {"y", norths({at})},
-                      {"text", Json::array({word})},
-                      {"align", "center"},
-                      {"shift_px", {0, is_below ? 20 : -10}}});
+    const Json x = easts({at});
+    const Json y = norths({at});
+    layers.push_back(circles_layer("", "ink", "clear", 5, 1.5, x, y));
+    layers.push_back(texts_layer(Json::array({word}), {"center", 0, is_below ? 20 : -10}, x, y));
   };
   add(*start, "start", heads_north);
   add(*end, "end", !heads_north);
-}
-
-Json line(const char* name, const char* colour, double width_px, const Json& x, const Json& y) {
-  return {{"kind", "line"},       {"name", name}, {"colour", colour},
-          {"width_px", width_px}, {"x", x},       {"y", y}};
 }
 
 std::string map_caption(const MethodSeries& method) {
@@ -175,9 +155,9 @@ Figure map_figure(const ReportInput& input, const ReportSeries& series) {
   const PlanView plan = plan_view(input, series, *origin);
   Json plot = plan_plot(area_of(plan), "The segment, the recorded path and the fixes in plan view");
   Json& layers = plot["layers"];
-  layers.push_back(line("segment", "road", 9, easts(plan.line), norths(plan.line)));
+  layers.push_back(line_layer("segment", "road", 9, easts(plan.line), norths(plan.line)));
   if (!plan.path.empty()) {
-    layers.push_back(line("recorded path", "muted", 1.2, "east_m", "north_m"));
+    layers.push_back(line_layer("recorded path", "muted", 1.2, "east_m", "north_m"));
   }
   layers.push_back(frames_without_fix(plan, reference));
   add_fixes(layers, plan, reference);

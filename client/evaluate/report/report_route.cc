@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "client/evaluate/report/report_figures.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_numbers.h"
 #include "client/evaluate/statistics.h"
 
@@ -59,19 +60,12 @@ Json route_plot(const ReportSeries& series, const std::string& description, int 
 // A line, where it is not too dense, with a dot a frame.
 void add_values(Json& plot, const MethodSeries& method, const char* column, bool is_reference) {
   const std::string y = method.column(column);
-  plot["layers"].push_back({{"kind", "line"},
-                            {"name", method.name},
-                            {"colour", method.colour},
-                            {"width_px", is_reference ? 1.8 : 1.1},
-                            {"most_points", kMostInLine},
-                            {"x", "route_m"},
-                            {"y", y}});
-  plot["layers"].push_back({{"kind", "dots"},
-                            {"colour", method.colour},
-                            {"radius", 1.6},
-                            {"arrows", true},
-                            {"x", "route_m"},
-                            {"y", y}});
+  Json line = line_layer(method.name, method.colour, is_reference ? 1.8 : 1.1, "route_m", y);
+  line["most_points"] = kMostInLine;
+  Json dots = dots_layer("", method.colour, 1.6, "route_m", y);
+  dots["arrows"] = true;
+  plot["layers"].push_back(line);
+  plot["layers"].push_back(dots);
 }
 
 std::string unplaced_text(const ReportSeries& series) {
@@ -104,14 +98,6 @@ Json status_lanes(const ReportSeries& series) {
     lanes.push_back({{"colour", method.colour}, {"marks", marks}});
   }
   return lanes;
-}
-
-Json status_keys() {
-  Json keys = Json::array();
-  for (const FixStatus status : kMarked) {
-    keys.push_back({{"kind", "status"}, {"name", name_of(status)}});
-  }
-  return keys;
 }
 
 std::string status_counts(const MethodSeries& method) {
@@ -153,9 +139,8 @@ std::string error_caption(const ReportSeries& series, double limit_m) {
   if (reference.evaluation->summary.localized_frames > 0) {
     text += band_text(reference, reference.evaluation->summary.within_2_sigma);
   }
-  text +=
-      "The lanes under the axis mark frames that were not tracked, in the order of the legend. " +
-      reference.name + ": " + status_counts(reference) + ".";
+  text += "The lanes under the axis mark frames that were not tracked. " + reference.name + ": " +
+          status_counts(reference) + ".";
   return text + beyond_text(series, kAlong, limit_m) + unplaced_text(series);
 }
 
@@ -174,11 +159,10 @@ void add_errors(Json& plot, const ReportSeries& series, const ErrorKind& kind) {
   for (const MethodSeries* method : series.back_to_front()) {
     const bool is_reference = method == &series.reference_method();
     if (is_reference) {
-      plot["layers"].push_back({{"kind", "band"},
-                                {"name", "2\u03C3 of " + method->name},
-                                {"colour", "band"},
-                                {"x", "route_m"},
-                                {"y", rounded(two_sigmas_m(*method, kind), 4)}});
+      Json band = area_layer("2\u03C3 of " + method->name, "band", "route_m",
+                             rounded(two_sigmas_m(*method, kind), 4));
+      band["kind"] = "band";
+      plot["layers"].push_back(band);
     }
     add_values(plot, *method, kind.error_column, is_reference);
   }
@@ -244,7 +228,7 @@ Figure error_figure(const ReportSeries& series) {
   add_errors(plot, series, kAlong);
   plot["lanes"] = status_lanes(series);
   figure.plots.push_back(plot);
-  figure.keys = status_keys();
+  for (const FixStatus status : kMarked) figure.keys.push_back(status_key(name_of(status)));
   return figure;
 }
 

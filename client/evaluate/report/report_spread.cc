@@ -4,7 +4,9 @@
 #include <numbers>
 
 #include "client/evaluate/report/report_figures.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_numbers.h"
+#include "client/evaluate/statistics.h"
 
 namespace milepost {
 namespace {
@@ -93,18 +95,11 @@ struct Normal {
 };
 
 Normal normal_of(const std::vector<double>& errors_m, const Bins& bins) {
-  double sum = 0;
-  double squares = 0;
-  double count = 0;
-  for (const double error_m : errors_m) {
-    if (std::abs(error_m) > bins.limit_m()) continue;
-    sum += error_m;
-    squares += error_m * error_m;
-    ++count;
-  }
-  const double mean_m = sum / count;
-  return {mean_m, std::sqrt(std::max(0.0, squares / count - mean_m * mean_m)),
-          count / static_cast<double>(errors_m.size())};
+  std::vector<double> inside_m;
+  std::copy_if(errors_m.begin(), errors_m.end(), std::back_inserter(inside_m),
+               [&](double error_m) { return std::abs(error_m) <= bins.limit_m(); });
+  return {mean_of(inside_m), deviation_of(inside_m),
+          static_cast<double>(inside_m.size()) / static_cast<double>(errors_m.size())};
 }
 
 double peak_percent(const Normal& normal, const Bins& bins) {
@@ -122,7 +117,7 @@ Json density_layer(const Normal& normal, const Bins& bins) {
     x.push_back(rounded(at_m, bins.decimals + 2));
     y.push_back(rounded(peak * std::exp(-sigmas * sigmas / 2), 3));
   }
-  return {{"kind", "line"}, {"colour", "ink"}, {"width_px", 1}, {"x", x}, {"y", y}};
+  return line_layer("", "ink", 1, x, y);
 }
 
 bool can_show(const Normal& normal, const Bins& bins) {
@@ -135,11 +130,12 @@ bool has_errors(const ReportSeries& series) {
                      [](const MethodSeries& method) { return !method.localized_errors_m.empty(); });
 }
 
-double highest_percent(const ReportSeries& series, const Bins& bins) {
+using Histograms = std::vector<Histogram>;  // one a method
+
+double highest_percent(const Histograms& histograms, const Bins& bins) {
   double highest = 0;
-  for (const MethodSeries& method : series.methods) {
-    if (method.localized_errors_m.empty()) continue;
-    const Histogram histogram = histogram_of(method.localized_errors_m, bins);
+  for (const Histogram& histogram : histograms) {
+    if (histogram.total == 0) continue;
     for (int bin = 0; bin < bins.count(); ++bin) {
       highest = std::max(highest, histogram.share_percent(bin));
     }
@@ -147,50 +143,43 @@ double highest_percent(const ReportSeries& series, const Bins& bins) {
   return highest;
 }
 
-// "2 of scale-only": how many errors of each method one end of the plot cut off.
+// How many errors one end of the plot cuts off, and of each method: "2 of scale-only".
 struct CutOff {
   std::size_t total = 0;
   std::vector<std::string> parts;
 };
 
-CutOff cut_off(const ReportSeries& series, const Bins& bins, std::size_t Histogram::*end) {
+CutOff cut_off(const ReportSeries& series, const Histograms& histograms,
+               std::size_t Histogram::*end) {
   CutOff cut;
-  for (const MethodSeries& method : series.methods) {
-    const std::size_t count = histogram_of(method.localized_errors_m, bins).*end;
+  for (std::size_t i = 0; i < histograms.size(); ++i) {
+    const std::size_t count = histograms[i].*end;
     cut.total += count;
-    if (count > 0) cut.parts.push_back(std::to_string(count) + " of " + method.name);
+    if (count > 0) cut.parts.push_back(std::to_string(count) + " of " + series.methods[i].name);
   }
   return cut;
 }
 
-std::string cut_off_text(const ReportSeries& series, const Bins& bins) {
+std::string cut_off_text(const CutOff& before, const CutOff& beyond, const Bins& bins) {
   const std::string limit = number(bins.limit_m(), bins.decimals) + "\u00A0m";
-  const CutOff before = cut_off(series, bins, &Histogram::before);
-  const CutOff beyond = cut_off(series, bins, &Histogram::beyond);
-  if (before.total + beyond.total == 0) return " No error is left out.";
   std::vector<std::string> ends;
   if (before.total > 0) ends.push_back("below \u2212" + limit + " lie " + listed(before.parts));
   if (beyond.total > 0) ends.push_back("above " + limit + " lie " + listed(beyond.parts));
+  if (ends.empty()) return " No error is left out.";
   return " Not drawn: " + (ends.size() == 2 ? ends[0] + "; " + ends[1] : ends[0]) + ".";
 }
 
-Json end_words(const ReportSeries& series, const Bins& bins, double top) {
-  const std::size_t before = cut_off(series, bins, &Histogram::before).total;
-  const std::size_t beyond = cut_off(series, bins, &Histogram::beyond).total;
-  Json layers = Json::array();
-  const auto add = [&](std::size_t count, const std::string& text, double at_m, const char* align,
-                       int right_px) {
-    if (count == 0) return;
-    layers.push_back({{"kind", "texts"},
-                      {"x", Json::array({rounded(at_m, bins.decimals)})},
-                      {"y", Json::array({rounded(top, 3)})},
-                      {"text", Json::array({text})},
-                      {"align", align},
-                      {"shift_px", {right_px, 14}}});
+void add_end_words(Json& plot, const CutOff& before, const CutOff& beyond) {
+  const auto add = [&](const std::string& text, const Json& x, const Words& words) {
+    plot["layers"].push_back(
+        texts_layer(Json::array({text}), words, Json::array({x}), Json::array({plot["y"]["max"]})));
   };
-  add(before, "\u25C2 " + std::to_string(before) + " further", -bins.limit_m(), "left", 4);
-  add(beyond, std::to_string(beyond) + " further \u25B8", bins.limit_m(), "right", -4);
-  return layers;
+  if (before.total > 0) {
+    add("\u25C2 " + std::to_string(before.total) + " further", plot["x"]["min"], {"left", 4, 14});
+  }
+  if (beyond.total > 0) {
+    add(std::to_string(beyond.total) + " further \u25B8", plot["x"]["max"], {"right", -4, 14});
+  }
 }
 
 std::string histogram_caption(const ReportSeries& series, const Bins& bins, const Normal& normal) {
@@ -202,7 +191,7 @@ std::string histogram_caption(const ReportSeries& series, const Bins& bins, cons
             signed_number(normal.mean_m, 3) + "\u00A0m) and standard deviation (" +
             metres(normal.sigma_m) + ") of the errors of " + reference.name + " drawn here.";
   }
-  return text + cut_off_text(series, bins);
+  return text;
 }
 
 std::vector<double> ascending_magnitudes(const MethodSeries& method) {
@@ -212,55 +201,37 @@ std::vector<double> ascending_magnitudes(const MethodSeries& method) {
   return magnitudes;
 }
 
-Json grid_m(double limit_m) {
-  Json grid = Json::array();
-  for (int i = 0; i <= kCumulativePoints; ++i) {
-    grid.push_back(rounded(limit_m * i / kCumulativePoints, 5));
-  }
-  return grid;
+Json steps_layer(const MethodSeries& method, bool is_reference, const Json& x, const Json& y) {
+  Json layer = line_layer(method.name, method.colour, is_reference ? 1.8 : 1.1, x, y);
+  layer["steps"] = true;
+  layer["total"] = method.localized_errors_m.size();
+  return layer;
 }
 
-// The share of magnitudes that are no larger, at each place of the grid.
-Json shares_percent(const std::vector<double>& magnitudes, double limit_m) {
-  Json shares = Json::array();
+// The method's shares of magnitudes that are no larger than some, which are those of all methods.
+Json shares_layer(const MethodSeries& method, bool is_reference, double limit_m) {
+  const std::vector<double> magnitudes = ascending_magnitudes(method);
+  Json x = Json::array();
+  Json y = Json::array();
   for (int i = 0; i <= kCumulativePoints; ++i) {
-    const auto end =
-        std::upper_bound(magnitudes.begin(), magnitudes.end(), limit_m * i / kCumulativePoints);
-    shares.push_back(rounded(100 * static_cast<double>(end - magnitudes.begin()) /
-                                 static_cast<double>(magnitudes.size()),
-                             2));
+    const double at_m = limit_m * i / kCumulativePoints;
+    const auto end = std::upper_bound(magnitudes.begin(), magnitudes.end(), at_m);
+    x.push_back(rounded(at_m, 5));
+    y.push_back(rounded(100 * static_cast<double>(end - magnitudes.begin()) /
+                            static_cast<double>(magnitudes.size()),
+                        2));
   }
-  return shares;
+  return steps_layer(method, is_reference, x, y);
 }
 
 Json level_layer(double percent, double limit_m) {
-  return {{"kind", "line"},
-          {"colour", "muted"},
-          {"width_px", 1},
-          {"dash", {2, 4}},
-          {"x", {0, rounded(limit_m, 5)}},
-          {"y", {percent, percent}}};
-}
-
-Json level_words(double limit_m) {
-  return {{"kind", "texts"},  {"x", {rounded(limit_m, 5), rounded(limit_m, 5)}},
-          {"y", {50, 95}},    {"text", {"50\u00A0%", "95\u00A0%"}},
-          {"align", "right"}, {"shift_px", {-4, 14}}};
+  Json level = line_layer("", "muted", 1, {0, rounded(limit_m, 5)}, {percent, percent});
+  level["dash"] = {2, 4};
+  return level;
 }
 
 Json share_axis(double top_percent) {
   return axis("localized frames (%)", 0, rounded_up(top_percent, 5), 1);
-}
-
-Json share_layer(const MethodSeries& method, bool is_reference, const Json& x, const Json& y) {
-  return {{"kind", "line"},
-          {"name", method.name},
-          {"colour", method.colour},
-          {"width_px", is_reference ? 1.8 : 1.1},
-          {"steps", true},
-          {"total", method.localized_errors_m.size()},
-          {"x", x},
-          {"y", y}};
 }
 
 std::string cumulative_caption(const ReportSeries& series) {
@@ -293,10 +264,16 @@ Figure histogram_figure(const ReportSeries& series) {
   figure.heading = "Errors by size";
   if (!has_errors(series)) return figure;
   const Bins bins = common_bins(series);
+  Histograms histograms;
+  for (const MethodSeries& method : series.methods) {
+    histograms.push_back(histogram_of(method.localized_errors_m, bins));
+  }
   const MethodSeries& reference = series.reference_method();
   const Normal normal = normal_of(reference.localized_errors_m, bins);
-  figure.caption = histogram_caption(series, bins, normal);
-  double top_percent = highest_percent(series, bins);
+  const CutOff before = cut_off(series, histograms, &Histogram::before);
+  const CutOff beyond = cut_off(series, histograms, &Histogram::beyond);
+  figure.caption = histogram_caption(series, bins, normal) + cut_off_text(before, beyond, bins);
+  double top_percent = highest_percent(histograms, bins);
   if (can_show(normal, bins)) top_percent = std::max(top_percent, peak_percent(normal, bins));
   Json plot = {{"description", "Histogram of the signed errors"},
                {"height_px", kPlotHeightPx},
@@ -306,21 +283,18 @@ Figure histogram_figure(const ReportSeries& series) {
                {"layers", Json::array()}};
   for (const MethodSeries* method : series.back_to_front()) {
     if (method->localized_errors_m.empty()) continue;
-    const Json shares = outline_percent(histogram_of(method->localized_errors_m, bins), bins);
+    const Json x = edges_m(bins);
+    const Json y = outline_percent(histograms[method->number], bins);
     if (method == &reference) {
-      plot["layers"].push_back({{"kind", "area"},
-                                {"colour", method->colour},
-                                {"opacity", 0.16},
-                                {"steps", true},
-                                {"x", edges_m(bins)},
-                                {"y", shares}});
+      Json area = area_layer("", method->colour, x, y);
+      area["opacity"] = 0.16;
+      area["steps"] = true;
+      plot["layers"].push_back(area);
     }
-    plot["layers"].push_back(share_layer(*method, method == &reference, edges_m(bins), shares));
+    plot["layers"].push_back(steps_layer(*method, method == &reference, x, y));
   }
   if (can_show(normal, bins)) plot["layers"].push_back(density_layer(normal, bins));
-  for (const Json& words : end_words(series, bins, plot["y"]["max"])) {
-    plot["layers"].push_back(words);
-  }
+  add_end_words(plot, before, beyond);
   figure.plots.push_back(plot);
   return figure;
 }
@@ -338,11 +312,10 @@ Figure cumulative_figure(const ReportSeries& series) {
                {"layers", {level_layer(50, limit_m), level_layer(95, limit_m)}}};
   for (const MethodSeries* method : series.back_to_front()) {
     if (method->localized_errors_m.empty()) continue;
-    plot["layers"].push_back(share_layer(*method, method == &series.reference_method(),
-                                         grid_m(limit_m),
-                                         shares_percent(ascending_magnitudes(*method), limit_m)));
+    plot["layers"].push_back(shares_layer(*method, method == &series.reference_method(), limit_m));
   }
-  plot["layers"].push_back(level_words(limit_m));
+  plot["layers"].push_back(texts_layer({"50\u00A0%", "95\u00A0%"}, {"right", -4, 14},
+                                       {rounded(limit_m, 5), rounded(limit_m, 5)}, {50, 95}));
   figure.plots.push_back(plot);
   return figure;
 }

@@ -12,8 +12,8 @@ DASHES = {"tracklet-regression": [7, 2], "tracklet-regression-particle": [2, 2],
 MARKERS = {"milepost": {"marker": "circle"}, "tracklet-regression-kalman": {"marker": "rect"},
            "tracklet-regression": {"marker": "triangle"}, "tracklet-regression-particle": {"marker": "rectRot"},
            "tracklet-matching": {"marker": "triangle", "rotation_deg": 180},
-           "scale-only": {"marker": "cross", "stroke_px": 1.5}, "wisurf": {"marker": "crossRot", "stroke_px": 1.5},
-           "inverse-scale": {"marker": "star", "stroke_px": 1.5}}
+           "scale-only": {"marker": "cross", "edge_px": 1.5}, "wisurf": {"marker": "crossRot", "edge_px": 1.5},
+           "inverse-scale": {"marker": "star", "edge_px": 1.5}}
 DIGITS = 5  # that numbers are kept to
 
 
@@ -51,8 +51,8 @@ def method_line(x, y, method, **look):
     return line(x, y, method, colour(method), 2 if method == "milepost" else 1.4, **dash, **look)
 
 
-def dots(x, y, colour_name, radius=2, name=None, **look):
-    return layer("dots", x, y, name, colour=colour_name, radius=radius, **look)
+def dots(x, y, colour_name, radius_px=2, name=None, **look):
+    return layer("dots", x, y, name, colour=colour_name, radius_px=radius_px, **look)
 
 
 def texts(x, y, words, align="left", shift_px=(4, 4)):

@@ -12,8 +12,8 @@ RUNNING_WINDOW_M = 10.0
 LEAST_SHOWN_M = 0.01  # of an error on a logarithmic axis
 HISTOGRAM_SIGMAS = 4.0
 SAMPLE_MARKERS = ({"marker": "circle"}, {"marker": "rect"}, {"marker": "rectRot"}, {"marker": "triangle"},
-                  {"marker": "triangle", "rotation_deg": 180}, {"marker": "cross", "stroke_px": 1.5},
-                  {"marker": "crossRot", "stroke_px": 1.5})
+                  {"marker": "triangle", "rotation_deg": 180}, {"marker": "cross", "edge_px": 1.5},
+                  {"marker": "crossRot", "edge_px": 1.5})
 SHARES = np.linspace(0, 1, 201)  # of frames, at which a distribution is drawn
 NORMAL_DASH = [7, 2]
 
@@ -153,7 +153,7 @@ def study_figure(points, x_label, x_log=False, second_label=None, x_ticks=()):
         x_axis = axis(x_label, *log_ends([np.array(values)]), log=True, ticks=values)
     else:
         x_axis = axis(x_label)
-    return [plot([method_line([each[0] for each in of_method_], [each[index] for each in of_method_], method, radius=3.5,
+    return [plot([method_line([each[0] for each in of_method_], [each[index] for each in of_method_], method, radius_px=3.5,
                               **MARKERS.get(method, {"marker": "circle"})) for method, of_method_ in points.items()],
                  x_axis, axis(label, 0, decimals=3), 220)
             for index, label in ((1, "mean error (m)"), (2, second_label)) if label]
@@ -190,7 +190,7 @@ def means_beside_paper(fixes):
         if method in paper.TABLE_1:
             published_m = paper.TABLE_1[method][1]
             means_m.append(published_m)
-            layers.append(dots([published_m], [place], "ink", 7, "paper", marker="line", rotation_deg=90, stroke_px=1.6))
+            layers.append(dots([published_m], [place], "ink", 7, "paper", marker="line", rotation_deg=90, edge_px=1.6))
         if len(errors_m):
             means_m.append(errors_m.mean())
             layers += [dots([errors_m.mean()], [place], colour(method), 5, "here"),

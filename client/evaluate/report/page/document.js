@@ -50,10 +50,10 @@ function sample(layer) {
   const paint = `var(--${look.colour})`;
   svg.setAttribute('aria-hidden', 'true');
   if (look.marker === 'line') {
-    shape('path', {d: 'M11 0V12', stroke: paint, 'stroke-width': look.stroke_px});
+    shape('path', {d: 'M11 0V12', stroke: paint, 'stroke-width': look.edge_px});
   } else if (look.kind === 'dots') {
-    shape('circle', {cx: 11, cy: 6, r: Math.min(look.radius || 2, 5), fill: `var(--${look.fill || look.colour})`, stroke: paint,
-      'stroke-width': look.stroke_px || 0});
+    shape('circle', {cx: 11, cy: 6, r: Math.min(look.radius_px || 2, 5), fill: `var(--${look.fill || look.colour})`, stroke: paint,
+      'stroke-width': look.edge_px || 0});
   } else if (look.kind === 'band' || look.kind === 'area') {
     shape('rect', {width: 22, height: 10, y: 1, fill: paint, opacity: look.opacity || 1});
   } else {

@@ -6,7 +6,15 @@ const SCROLLING_MS = 400;  // a wheel that scrolls the page does not begin to zo
 let cursor = null;         // number of a frame
 let scrolled = -Infinity;
 
+// So that rounding cannot leave out a tick at an end.
+function widen(axis) {
+  const margin = axis.log ? 0 : 1e-9 * (axis.max - axis.min);
+  if (margin) Object.assign(axis, {min: axis.min - margin, max: axis.max + margin});
+}
+
 function plotElement(spec) {
+  widen(spec.x);
+  widen(spec.y);
   const canvas = h('canvas', {role: 'img', 'aria-label': spec.description});
   const box = h('div', {class: spec.plan ? 'plot plan' : 'plot', tabindex: 0}, h('div', {class: 'canvas'}, canvas));
   box.firstChild.style.height = `${(spec.height_px || 200) + AROUND_PX + lanesPx(spec)}px`;

@@ -30,8 +30,8 @@ function dataset(layer, data, more = {}) {
   return {
     layer, data, label: layer.name, fill: false, showLine: layer.kind !== 'dots', stepped: layer.steps || false, backgroundColor: paint,
     borderColor: paint, borderWidth: layer.width_px || 1.2, borderDash: layer.dash || [], borderJoinStyle: 'round',
-    borderCapStyle: layer.dash ? 'butt' : 'round', pointRadius: hasDots ? layer.radius || 2 : 0, pointHoverRadius: hasDots ? layer.radius || 2 : 0,
-    pointStyle: layer.marker || 'circle', pointRotation: layer.rotation_deg || 0, pointBorderColor: paint, pointBorderWidth: layer.stroke_px || 0,
+    borderCapStyle: layer.dash ? 'butt' : 'round', pointRadius: hasDots ? layer.radius_px || 2 : 0, pointHoverRadius: hasDots ? layer.radius_px || 2 : 0,
+    pointStyle: layer.marker || 'circle', pointRotation: layer.rotation_deg || 0, pointBorderColor: paint, pointBorderWidth: layer.edge_px || 0,
     pointBackgroundColor: colour(layer.fill || layer.colour, layer.opacity), ...(layer.unclipped ? {clip: false} : {}), ...more,
   };
 }
@@ -39,7 +39,7 @@ function dataset(layer, data, more = {}) {
 // Points beyond the y axis, as arrow heads at its edge.
 function arrows(layer, data, y) {
   const beyond = data.filter((point) => point.y !== null && (point.y > y.max || point.y < y.min));
-  return dataset({...layer, marker: 'triangle', radius: 4}, beyond.map(({x, y: at}) => ({x, y: at > y.max ? y.max : y.min})),
+  return dataset({...layer, marker: 'triangle', radius_px: 4}, beyond.map(({x, y: at}) => ({x, y: at > y.max ? y.max : y.min})),
     {label: undefined, clip: 5, pointRotation: beyond.map((point) => point.y > y.max ? 0 : 180)});
 }
 
@@ -108,7 +108,7 @@ function scale(spec, which) {
 // Of plots that are not of frames: the values beside the pointer.
 function tooltip(spec) {
   return {
-    enabled: !spec.frames && !spec.plan, filter: (item) => item.dataset.label !== undefined,
+    enabled: !spec.frames && !spec.plan, filter: (item) => item.dataset.label,
     callbacks: {
       title: ([item]) => item && `${spec.x.names ? spec.x.names[item.parsed.x] : number(item.parsed.x, spec.x.decimals)}`
         + (spec.bin ? ` to ${number(item.parsed.x + spec.bin, spec.x.decimals)}` : '') + `, ${spec.x.label}`,
@@ -158,7 +158,7 @@ function write(context, text, x, y, align) {
 function drawTexts({ctx, scales, chartArea}, layer) {
   layer.text.forEach((text, i) => {
     const x = scales.x.getPixelForValue(layer.x[i]), y = scales.y.getPixelForValue(layer.y[i]);
-    if (layer.x[i] === null || layer.outside || !inside(chartArea, x, y)) return;
+    if (layer.x[i] === null || !inside(chartArea, x, y)) return;
     const [right, down] = layer.shift_px || [0, 0];
     write(ctx, text, x + right, y + down, layer.align || 'left');
   });
@@ -175,14 +175,15 @@ function stroke(context, look, ...path) {
 }
 
 function drawLane({ctx, scales: {x}, chartArea}, lane, y) {
-  const within = (value) => Math.min(Math.max(x.getPixelForValue(value), chartArea.left), chartArea.right);
+  const {left, right} = chartArea;
+  const within = (pixel) => Math.min(Math.max(pixel, left), right);
   if (lane.colour) {
     ctx.fillStyle = colour(lane.colour);
-    ctx.fillRect(chartArea.left - 13, y - 3, 6, 6);
+    ctx.fillRect(left - 13, y - 3, 6, 6);
   }
-  for (const [from, to, status] of lane.marks) {
-    if (to < x.min || from > x.max) continue;
-    stroke(ctx, STATUS[status], [within(from) - 2, y], [within(to) + 2, y]);
+  for (const [begin, end, status] of lane.marks) {
+    const from = x.getPixelForValue(begin), to = x.getPixelForValue(end);
+    if (to >= left - 1 && from <= right + 1) stroke(ctx, STATUS[status], [within(from) - 2, y], [within(to) + 2, y]);
   }
 }
 
