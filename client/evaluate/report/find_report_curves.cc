@@ -46,7 +46,7 @@ void add_found_line(Json& plot, const FoundSeries& series) {
 }
 
 // Whole powers of ten about the values.
-Json error_axis(const std::string& label, std::vector<double> values) {
+Json error_axis(const std::string& label, const std::vector<double>& values) {
   double low = 1;
   double high = 1;
   for (const double value : finite_only(values)) {

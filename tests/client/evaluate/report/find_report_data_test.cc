@@ -16,7 +16,6 @@
 namespace milepost {
 namespace {
 
-using testing::column_of;
 using testing::FoundRun;
 using ::testing::HasSubstr;
 using testing::layers_of;

@@ -260,6 +260,7 @@ TEST(ReportData, AMethodHasItsColourWhateverStandsBesideIt) {
   const Drive drive = straight_drive(10);
   const auto colours_of = [&](const std::vector<const char*>& names) {
     std::vector<MethodEvaluation> methods;
+    methods.reserve(names.size());
     for (const char* name : names) {
       methods.push_back(evaluation(name, drive, small_errors(10, 0.1)));
     }
