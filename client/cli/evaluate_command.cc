@@ -9,7 +9,7 @@
 #include "client/evaluate/estimates.h"
 #include "client/evaluate/output.h"
 #include "client/evaluate/replay.h"
-#include "client/evaluate/report/report.h"
+#include "client/evaluate/report/report_data.h"
 #include "client/evaluate/report/report_page.h"
 #include "schema/base/file.h"
 
@@ -67,7 +67,7 @@ Result<std::string> report_of(const Drive& drive, const std::string& source_name
     input.segment_line = segment->vertices;
     input.segment_length_m = segment->length_m;
   }
-  return report_html(input);
+  return report_page(report_data(input));
 }
 
 // What --estimates adds to the files of an evaluation.

@@ -7,7 +7,7 @@
 #include "client/evaluate/baselines/orientation_filter.h"
 #include "client/evaluate/find_errors.h"
 #include "client/evaluate/output.h"
-#include "client/evaluate/report/find_report.h"
+#include "client/evaluate/report/find_report_data.h"
 #include "client/evaluate/report/report_page.h"
 #include "client/fetch/walls.h"
 #include "schema/base/csv_text.h"
@@ -305,7 +305,7 @@ int run_find(const std::string& program, std::vector<std::string> words) {
     input.frames = &found->frames;
     input.recorder = &recorder;
     input.backdrop = *backdrop;
-    written = write_text_file(options.report, find_report_html(input));
+    written = write_text_file(options.report, report_page(find_report_data(input)));
   }
   if (!written.ok()) return fail(program, written.error());
   report_stream(options.out) << summary_line(found->frames, options.out) << "\n";

@@ -7,6 +7,8 @@ import sys
 import tempfile
 import unittest
 
+from made_up import data_of
+
 STREET = pathlib.Path(os.environ["MILEPOST_STREET"])  # holds street-map and street-query
 METHODS = ["tracklet-regression-kalman", "milepost"]
 
@@ -53,12 +55,14 @@ class Command(unittest.TestCase):
                      "table1-pairs.txt", "normality.csv", "regressions.csv", "precision.csv", "precision.txt",
                      "latency-precision.csv"):
             self.assertGreater((out / name).stat().st_size, 100, name)
-        page = (out / "report.html").read_text()
-        self.assertIn("<h2>Precision: along, lateral and heading</h2>", page)
+        parts = data_of((out / "report.html").read_text())["parts"]
+        headings = [part["heading"] for part in parts]
+        self.assertIn("Precision: along, lateral and heading", headings)
         self.assertIn("### Precision: along, lateral and heading", results.read_text())
         self.assertIn(" p50 ms ", called.stdout)
         for number in (5, 6, 7, 8):
-            self.assertIn(f"<h2>Figure {number}: ", page)
+            figure = next(part for part in parts if part["heading"].startswith(f"Figure {number}: "))
+            self.assertTrue(all(plot["layers"] for plot in figure["plots"]), number)
         self.assertIn(f"| milepost | **{rows['milepost']['mean_m']}** |", results.read_text())
 
         again = self.lab(self.pairs, "--method", *METHODS, "--out", self.folder / "again",

@@ -45,7 +45,8 @@ class Evidence(unittest.TestCase):
         self.assertEqual((elsewhere["places"], elsewhere["greatest"], elsewhere["above 5 %"], elsewhere["below 0 %"]),
                          (2, 6, 50, 50))
         self.assertEqual([row["frames"] for row in rows], ["plain", "plain", "all", "all"])
-        self.assertIn("<svg", outcome.figure)
+        names = [layer["name"] for layer in outcome.figure[0]["layers"] if "name" in layer]
+        self.assertEqual([name.split(",")[0] for name in names], ["elsewhere", "where the frame was taken"])
 
     def test_a_place_counts_once_a_frame(self):
         rows, _ = self.rows(sighting(0, 0, 20), sighting(0, 0.2, 20), sighting(0, 0.1, 20, "t"), sighting(1, 0.1, 1))

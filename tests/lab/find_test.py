@@ -6,13 +6,13 @@ import pathlib
 import subprocess
 import tempfile
 import unittest
-import xml.etree.ElementTree
 
 import numpy as np
 
 from laboratory import find, found
 from laboratory.found_figures import error_over_time
 from laboratory.road import LocalFrame, earth_centred, geodetic
+from made_up import data_of
 
 MAPPER, CLIENT, SIMULATOR = (os.environ.get(f"MILEPOST_{name}", "") for name in ("MAPPER", "CLIENT", "SIMULATOR"))
 STREET = pathlib.Path(os.environ.get("MILEPOST_STREET", ""))
@@ -122,12 +122,15 @@ class Counting(unittest.TestCase):
         np.testing.assert_allclose(course.right, np.array([0, 0, 1, 2, 1, 1]) / 3)
         np.testing.assert_allclose(course.wrong, np.array([0, 1, 0, 0, 0, 0]) / 3)
 
-    def test_the_drawing_is_the_same_each_time_and_well_formed(self):
-        drawing = error_over_time(self.runs)
-        self.assertEqual(drawing, error_over_time(self.runs))
-        xml.etree.ElementTree.fromstring(drawing)
-        self.assertIn("error of 3 runs", drawing)
-        self.assertIn("the paper's mean, 3.40 m", drawing)
+    def test_the_plots_hold_every_run_and_are_the_same_each_time(self):
+        error, share = error_over_time(self.runs)
+        self.assertEqual([error, share], error_over_time(self.runs))
+        self.assertIn("error of 3 runs", error["title"])
+        self.assertEqual(error["layers"][-1]["text"], ["the paper's mean, 3.40 m"])
+        runs = [layer for layer in error["layers"] if layer.get("name") == "a run"]
+        self.assertEqual([layer["y"][0] for layer in runs], [90, 60, 9])
+        tracked, = (layer for layer in share["layers"] if layer.get("name") == "tracked")
+        self.assertEqual(tracked["y"], [0, 33.333, 33.333, 66.667, 33.333, 33.333])
         error_over_time(self.runs[2:])
 
 
@@ -147,9 +150,9 @@ class Command(Folder):
         self.assertEqual(head, find.HEADER)
         self.assertEqual([row.split()[0] for row in rows], ["1", "2", "all"])
         self.assertRegex(last, "^found in [0-2]")
-        tree = xml.etree.ElementTree.fromstring(page.read_text(encoding="utf-8").replace("<!DOCTYPE html>", ""))
-        facts = [each.text for each in tree.iter("dd")]
-        self.assertEqual(facts, ["street.map", "known, off by 1 m in each direction", "--particles 300"])
+        facts = dict(data_of(page.read_text(encoding="utf-8"))["facts"])
+        self.assertEqual(facts, {"Map": "street.map", "Start": "known, off by 1 m in each direction",
+                                 "Options of find": "--particles 300"})
 
     def test_what_find_refuses_is_told_in_a_line(self):
         result = self.command(CLIENT, self.folder / "none.map", STREET / "street-query", "--seeds", 1)

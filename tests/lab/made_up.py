@@ -1,6 +1,7 @@
 """Made-up drives and results for the tests."""
 import json
 import math
+import re
 
 import numpy as np
 
@@ -48,3 +49,8 @@ def write_drive(folder, frames=1, step_m=1.0, images=None):
         "name": "a", "camera": {"width_px": 600, "height_px": 400, "focal_px": [400.0, 200.0],
                                 "principal_px": [300.0, 250.0]},
         "frame": "local", "origin": {"latitude_deg": 0, "longitude_deg": 0, "altitude_m": 0}, "images": "frames"}))
+
+
+def data_of(page):
+    """What a report shows."""
+    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)[1])

@@ -74,7 +74,7 @@ class Outcomes(unittest.TestCase):
             0.5: [fixes("p", "milepost", [0.1, -0.3], kb_per_m=0.48, lateral_error_m=[0.75, -0.25])],
             0.15: [fixes("p", "milepost", [0.4, 0.4], kb_per_m=0.16, lateral_error_m=0.2)]})
         self.assertEqual(outcome.points, {"milepost": [(0.16, 0.4, 0.2), (0.48, 0.2, 0.5)]})
-        self.assertIn("mean lateral error (m)", outcome.figure)
+        self.assertEqual([plot["y"]["label"] for plot in outcome.figure], ["mean error (m)", "mean lateral error (m)"])
         self.assertRegex(outcome.table.as_text(),
                          r"\n0\.5 +milepost +0\.200 +0\.100 +0\.30 +0\.500 +0\.725 +– +0\.48 ")
 
@@ -86,7 +86,7 @@ class Outcomes(unittest.TestCase):
                                                              heading_error_deg=-1.5)]})
         self.assertEqual([point[:2] for point in outcome.points["inverse-scale"]], [(0, 0.1), (2, 0.5)])
         self.assertEqual(outcome.points["milepost"], [(0, 0.1, 0.1), (2, 0.2, 0.3)])
-        self.assertIn("focal +5 %", outcome.figure)
+        self.assertIn("focal +5 %", outcome.figure[0]["x"]["names"])
         rows = [dict(zip((heading for heading, *_ in outcome.table.columns), row)) for row in outcome.table.rows]
         self.assertEqual(rows[3]["calibration"], "focal +5 %")
         self.assertEqual(rows[3]["heading mean"], 1.5)

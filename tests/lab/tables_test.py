@@ -90,8 +90,11 @@ class Tables(unittest.TestCase):
         self.assertEqual(rows[1]["paper_mean_m"], "")
         self.assertRegex(table.as_text(), r"milepost +0\.300 ")
         self.assertIn("| milepost | **0.300** |", table.as_markdown())
-        self.assertIn('<th scope="row">milepost</th><td data-label="mean" data-unit="m"><strong>0.300</strong></td>',
-                      table.as_html())
+        data = table.as_data()
+        self.assertEqual(data["columns"][1], {"heading": "mean", "unit": "m", "decimals": 3})
+        self.assertEqual(data["rows"][1]["cells"][:2], ["milepost", 0.3])
+        self.assertIn(1, data["rows"][1]["best"])
+        self.assertIsNone(data["rows"][1]["cells"][-1])
 
     def test_by_pair_the_best_is_that_of_the_pair(self):
         table = tables.table_1_by_pair(self.fixes)

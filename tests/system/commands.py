@@ -57,6 +57,11 @@ def rows_of(file):
         return list(csv.DictReader(table))
 
 
+def report_data(page):
+    """What a report shows."""
+    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)[1])
+
+
 class CommandTest(unittest.TestCase):
     """A test with a temporary folder and checks of what commands say."""
 

@@ -6,8 +6,6 @@
 namespace milepost {
 namespace {
 
-using plot::Point;
-
 constexpr double kHeightShare = 0.8;   // of a plan's width
 constexpr double kLeastWidthM = 80;    // but of a close-up
 constexpr double kCloseUpM = 32;       // its width
@@ -45,7 +43,7 @@ std::optional<PlanArea> close_up_area(const FoundSeries& series, const FindSnaps
   PlanArea area;
   area.include({series.found[snapshot.frame]});
   area = of_even_shape(area, kCloseUpM);
-  const Point& recorded = series.recorded[snapshot.frame];
+  const PlanPoint& recorded = series.recorded[snapshot.frame];
   if (std::isfinite(recorded.x) && !area.contains(recorded)) return std::nullopt;
   const auto inside = std::count_if(snapshot.particles.begin(), snapshot.particles.end(),
                                     [&](const PlanPose& pose) {

@@ -1,50 +1,90 @@
 // Curves of the report of a found drive: errors and belief over time.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "client/evaluate/report/find_report_figures.h"
-#include "client/evaluate/report/find_status_marks.h"
-#include "client/evaluate/report/plot/chart.h"
-#include "client/evaluate/report/plot/text.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_numbers.h"
 #include "client/evaluate/statistics.h"
 
 namespace milepost {
 namespace {
 
-using plot::Axis;
-using plot::Chart;
-using plot::HoverStrip;
-using plot::Point;
+constexpr std::array<FindStatus, 4> kStatuses = {FindStatus::initializing, FindStatus::tracking,
+                                                 FindStatus::predicted, FindStatus::lost};
+constexpr double kLeastError = 0.1;  // drawn to scale, in metres or degrees
 
-constexpr std::size_t kMostStrips = 500;  // more would be narrower than a pointer can hit
-
-Axis time_axis(const FoundSeries& series) {
-  return Axis::spanning("time (s)", 0, series.time_s.back());
+// A plot of frames without layers, with the status of each frame.
+Json time_plot(const FoundSeries& series, const std::string& description, int height_px, Json y) {
+  Json marks = Json::array();
+  const std::vector<FoundFrame>& frames = *series.input->frames;
+  for (std::size_t first = 0; first < frames.size();) {
+    const FindStatus status = frames[first].fix.status;
+    std::size_t end = first;
+    while (end < frames.size() && frames[end].fix.status == status) ++end;
+    const double to_s = series.time_s[std::min(end, frames.size() - 1)];
+    marks.push_back({rounded(series.time_s[first], 3), rounded(to_s, 3), name_of(status)});
+    first = end;
+  }
+  const double end_s = series.time_s.back() > 0 ? series.time_s.back() : 1;
+  return {{"frames", true},         {"description", description},
+          {"height_px", height_px}, {"x", axis("time (s)", 0, end_s)},
+          {"y", std::move(y)},      {"lanes", Json::array({{{"marks", marks}}})},
+          {"layers", Json::array()}};
 }
 
-// Whole powers of ten about the values, of at least `least`.
-Axis error_axis(const std::string& label, double least, std::vector<double> values) {
-  values = finite_only(values);
+void add_found_line(Json& plot, const FoundSeries& series) {
+  if (!series.summary.found_frame) return;
+  const Json at_s = rounded(series.time_s[*series.summary.found_frame], 3);
+  const Json top = plot["y"]["max"];
+  Json line = line_layer("", "ink", 1, {at_s, at_s}, {plot["y"]["min"], top});
+  line["dash"] = {3, 3};
+  plot["layers"].push_back(line);
+  plot["layers"].push_back(texts_layer(Json::array({"found"}), {"left", 5, 13}, Json::array({at_s}),
+                                       Json::array({top})));
+}
+
+// Whole powers of ten about the values.
+Json error_axis(const std::string& label, const std::vector<double>& values) {
   double low = 1;
   double high = 1;
-  for (const double value : values) {
-    low = std::min(low, std::max(least, value));
+  for (const double value : finite_only(values)) {
+    low = std::min(low, std::max(kLeastError, value));
     high = std::max(high, value);
   }
-  return Axis::logarithmic(label, std::pow(10, std::floor(std::log10(low))),
-                           std::pow(10, std::ceil(std::log10(high))));
+  low = std::pow(10, std::floor(std::log10(low)));
+  high = std::pow(10, std::ceil(std::log10(high)));
+  Json json = axis(label, low, high > low ? high : 10 * low);
+  json["log"] = true;
+  return json;
 }
 
 // What is smaller than the axis reaches lies on its edge.
-std::vector<Point> points_of(const FoundSeries& series, const std::vector<double>& values,
-                             double least) {
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double value = values[i];
-    points.push_back({series.time_s[i], std::isnan(value) ? value : std::max(least, value)});
+Json on_axis(std::vector<double> values, const Json& y) {
+  const double least = y["min"];
+  for (double& value : values) {
+    if (!std::isnan(value)) value = std::max(least, value);
   }
-  return points;
+  return rounded(values, 3);
+}
+
+Figure error_figure(const FoundSeries& series, const std::string& heading, const std::string& label,
+                    int height_px, const std::vector<double>& errors,
+                    const std::vector<double>& two_sigmas) {
+  Figure figure;
+  figure.heading = heading;
+  if (finite_only(errors).empty()) return figure;
+  std::vector<double> all = errors;
+  all.insert(all.end(), two_sigmas.begin(), two_sigmas.end());
+  Json plot = time_plot(series, heading, height_px, error_axis(label, all));
+  plot["layers"].push_back(
+      area_layer("up to 2\u03C3 as reported", "band", "time_s", on_axis(two_sigmas, plot["y"])));
+  plot["layers"].push_back(line_layer("error", "m0", 1.8, "time_s", on_axis(errors, plot["y"])));
+  add_found_line(plot, series);
+  figure.plots.push_back(plot);
+  for (const FindStatus status : kStatuses) figure.keys.push_back(status_key(name_of(status)));
+  return figure;
 }
 
 template <class Value>
@@ -54,108 +94,44 @@ std::vector<double> values_of(const FoundSeries& series, const Value& value) {
   return values;
 }
 
-const FindStatusMark& mark_of(FindStatus status) {
-  return *std::find_if(kFindStatusMarks.begin(), kFindStatusMarks.end() - 1,
-                       [&](const FindStatusMark& mark) { return mark.status == status; });
+Json told(const char* label, const char* column, const char* unit, int decimals,
+          bool is_signed = false) {
+  return {{"label", label},
+          {"column", column},
+          {"unit", unit},
+          {"decimals", decimals},
+          {"signed", is_signed}};
 }
 
-// Each stretch of frames with one status.
-void add_status_lane(Chart& chart, const FoundSeries& series) {
-  const std::vector<FoundFrame>& frames = *series.input->frames;
-  chart.add_lane("");
-  for (std::size_t first = 0; first < frames.size();) {
-    const FindStatus status = frames[first].fix.status;
-    std::size_t end = first;
-    while (end < frames.size() && frames[end].fix.status == status) ++end;
-    const double to_s = series.time_s[std::min(end, frames.size() - 1)];
-    chart.mark_lane(series.time_s[first], to_s, mark_of(status).lane_class,
-                    std::string(name_of(status)) + ", " + counted(end - first, "frame"));
-    first = end;
+Json statuses_of(const FoundSeries& series) {
+  Json statuses = Json::array();
+  for (const FoundFrame& frame : *series.input->frames) {
+    statuses.push_back(std::find(kStatuses.begin(), kStatuses.end(), frame.fix.status) -
+                       kStatuses.begin());
   }
+  return statuses;
 }
 
-std::string hover_text(const FoundSeries& series, std::size_t i) {
-  const FoundFrame& frame = (*series.input->frames)[i];
-  const FindFix& fix = frame.fix;
-  return frame.filename + ", " + plot::number(series.time_s[i], 1) + " s: " + name_of(fix.status) +
-         "\nposition off by " + plot::number(series.errors[i].position_m, 2) + " m (\u03C3 " +
-         plot::number(fix.sigma_m, 2) + " m)\nheading off by " +
-         plot::signed_number(series.errors[i].heading_deg, 1) + "\u00B0 (\u03C3 " +
-         plot::number(fix.heading_sigma_deg, 1) + "\u00B0)\nmass " + plot::number(fix.mass, 2) +
-         ", explained " + plot::number(fix.explained, 2);
-}
-
-// Each strip reaches half way to its neighbours.
-std::vector<HoverStrip> hover_strips(const FoundSeries& series) {
-  const std::size_t stride = series.time_s.size() / kMostStrips + 1;
-  std::vector<HoverStrip> strips;
-  double from_s = 0;
-  for (std::size_t i = 0; i < series.time_s.size(); i += stride) {
-    const std::size_t next = std::min(i + stride, series.time_s.size() - 1);
-    const double to_s = (series.time_s[i] + series.time_s[next]) / 2;
-    strips.push_back({from_s, to_s, hover_text(series, i)});
-    from_s = to_s;
-  }
-  return strips;
-}
-
-std::string key(const std::string& css_class, const std::string& words) {
-  return "<span class=\"" + css_class + "\"><i></i>" + words + "</span> ";
-}
-
-std::string legend(const std::string& keys) { return R"(<p class="legend">)" + keys + "</p>\n"; }
-
-std::string status_legend() {
-  std::string keys;
-  for (const FindStatusMark& mark : kFindStatusMarks) {
-    keys += std::string(R"(<span><svg width="18" height="8"><path class=")") + mark.lane_class +
-            R"(" d="M3 4H15"/></svg>)" + name_of(mark.status) + "</span> ";
-  }
-  return legend(keys);
-}
-
-void draw_found_line(Chart& chart, const FoundSeries& series, const Axis& y) {
-  if (!series.summary.found_frame) return;
-  const double at_s = series.time_s[*series.summary.found_frame];
-  chart.line({{at_s, y.from()}, {at_s, y.to()}}, "moment");
-  chart.word({at_s, y.to()}, 5, 13, "strong", "found");
-}
-
-struct ErrorCurve {
-  std::string heading;
-  std::string label;
-  int height_px = 0;
-  double least = 0;  // drawn to scale
-  std::vector<double> errors;
-  std::vector<double> two_sigmas;
-};
-
-Figure error_figure(const FoundSeries& series, const ErrorCurve& curve) {
-  Figure figure;
-  figure.heading = curve.heading;
-  figure.legend =
-      legend(key("m0", "error") + key("swatch", "up to 2\u03C3 as reported")) + status_legend();
-  if (finite_only(curve.errors).empty()) return figure;
-  std::vector<double> all = curve.errors;
-  all.insert(all.end(), curve.two_sigmas.begin(), curve.two_sigmas.end());
-  const Axis y = error_axis(curve.label, curve.least, all);
-  Chart chart = Chart::of_height(time_axis(series), y, curve.height_px, curve.heading);
-  chart.area(points_of(series, curve.two_sigmas, y.from()), "band");
-  chart.line(points_of(series, curve.errors, y.from()), "m0 line chief");
-  draw_found_line(chart, series, y);
-  add_status_lane(chart, series);
-  chart.hover(hover_strips(series));
-  figure.drawing = chart.svg();
-  return figure;
+Json told_of_frames() {
+  Json words = Json::array();
+  for (const FindStatus status : kStatuses) words.push_back(name_of(status));
+  return Json::array({{{"label", "status"}, {"column", "status"}, {"words", words}},
+                      told("position error", "error_m", "m", 2),
+                      told("\u03C3", "sigma_m", "m", 2),
+                      told("heading error", "heading_error_deg", "\u00B0", 1, true),
+                      told("\u03C3", "heading_sigma_deg", "\u00B0", 1),
+                      told("mode probability", "mode_probability", "", 2),
+                      told("inlier ratio", "inlier_ratio", "", 2)});
 }
 
 }  // namespace
 
 Figure position_error_figure(const FoundSeries& series) {
-  ErrorCurve curve{"Position error over time", "error (m)", 260, 0.1, {}, {}};
-  for (const FindError& error : series.errors) curve.errors.push_back(error.position_m);
-  curve.two_sigmas = values_of(series, [](const FindFix& fix) { return 2 * fix.sigma_m; });
-  Figure figure = error_figure(series, curve);
+  std::vector<double> errors;
+  for (const FindError& error : series.errors) errors.push_back(error.position_m);
+  Figure figure =
+      error_figure(series, "Position error over time", "error (m)", 260, errors,
+                   values_of(series, [](const FindFix& fix) { return 2 * fix.sigma_m; }));
   figure.caption =
       "Distance from the recorded position, on a logarithmic scale, so that both the search and "
       "the tracking can be read. In the grey the error is within twice the reported \u03C3, which "
@@ -165,35 +141,65 @@ Figure position_error_figure(const FoundSeries& series) {
 }
 
 Figure heading_error_figure(const FoundSeries& series) {
-  ErrorCurve curve{"Heading error over time", "error (\u00B0)", 180, 0.1, {}, {}};
-  for (const FindError& error : series.errors) curve.errors.push_back(std::abs(error.heading_deg));
-  curve.two_sigmas =
-      values_of(series, [](const FindFix& fix) { return 2 * fix.heading_sigma_deg; });
-  Figure figure = error_figure(series, curve);
-  figure.caption = "Absolute angle to the recorded heading; \u03C3 is that of the densest place.";
+  std::vector<double> errors;
+  for (const FindError& error : series.errors) errors.push_back(std::abs(error.heading_deg));
+  Figure figure =
+      error_figure(series, "Heading error over time", "error (\u00B0)", 180, errors,
+                   values_of(series, [](const FindFix& fix) { return 2 * fix.heading_sigma_deg; }));
+  figure.caption =
+      "Absolute angle to the recorded heading; \u03C3 is that of the most probable mode.";
   return figure;
 }
 
 Figure belief_figure(const FoundSeries& series) {
   Figure figure;
   figure.heading = "What the belief rests on";
-  figure.legend = legend(key("m0", "mass of the densest place") + key("m1", "explained share")) +
-                  status_legend();
   figure.caption =
-      "Mass: the part of the belief that lies in the densest place. Explained: the share of what "
-      "was seen lately that the walls there explain. A vehicle counts as found when both are high "
-      "for some way, and as lost when one falls low.";
-  const Axis y = Axis::spanning("share", 0, 1, 5);
-  Chart chart = Chart::of_height(time_axis(series), y, 160, figure.heading);
-  const auto draw = [&](const std::vector<double>& values, const std::string& css_class) {
-    chart.line(points_of(series, values, 0), css_class);
-  };
-  draw(values_of(series, [](const FindFix& fix) { return fix.explained; }), "m1 line");
-  draw(values_of(series, [](const FindFix& fix) { return fix.mass; }), "m0 line chief");
-  draw_found_line(chart, series, y);
-  add_status_lane(chart, series);
-  figure.drawing = chart.svg();
+      "Mode probability: the part of the belief that lies in its densest place. Inlier ratio: the "
+      "share of what was seen lately that the walls there explain. A vehicle counts as found when "
+      "both are high for some way, and as lost when one falls low.";
+  Json plot = time_plot(series, figure.heading, 160, axis("share", 0, 1));
+  plot["layers"].push_back(line_layer("inlier ratio", "m1", 1.1, "time_s", "inlier_ratio"));
+  plot["layers"].push_back(line_layer("mode probability", "m0", 1.8, "time_s", "mode_probability"));
+  add_found_line(plot, series);
+  figure.plots.push_back(plot);
+  for (const FindStatus status : kStatuses) figure.keys.push_back(status_key(name_of(status)));
   return figure;
+}
+
+void add_frames(Json& page, const FoundSeries& series) {
+  Json names = Json::array();
+  for (const FoundFrame& frame : *series.input->frames) names.push_back(frame.filename);
+  std::vector<double> errors_m;
+  std::vector<double> turns_deg;
+  for (const FindError& error : series.errors) {
+    errors_m.push_back(error.position_m);
+    turns_deg.push_back(error.heading_deg);
+  }
+  const auto column = [&](double (*value)(const FindFix&), int decimals) {
+    return rounded(values_of(series, value), decimals);
+  };
+  page["columns"] = {
+      {"time_s", rounded(series.time_s, 3)},
+      {"frame", names},
+      {"east_m", easts(series.recorded)},
+      {"north_m", norths(series.recorded)},
+      {"status", statuses_of(series)},
+      {"error_m", rounded(errors_m, 3)},
+      {"sigma_m", column([](const FindFix& fix) { return fix.sigma_m; }, 3)},
+      {"heading_error_deg", rounded(turns_deg, 2)},
+      {"heading_sigma_deg", column([](const FindFix& fix) { return fix.heading_sigma_deg; }, 2)},
+      {"mode_probability", column([](const FindFix& fix) { return fix.mass; }, 3)},
+      {"inlier_ratio", column([](const FindFix& fix) { return fix.explained; }, 3)}};
+  page["frames"] = {
+      {"x", "time_s"},
+      {"names", "frame"},
+      {"east", "east_m"},
+      {"north", "north_m"},
+      {"label", "time"},
+      {"unit", "s"},
+      {"decimals", 1},
+      {"rows", Json::array({{{"name", "found"}, {"colour", "m0"}, {"values", told_of_frames()}}})}};
 }
 
 }  // namespace milepost

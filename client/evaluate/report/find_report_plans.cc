@@ -1,90 +1,109 @@
 // Plans of the report of a found drive: the belief at several times, and the whole path.
+#include <sodium.h>
+
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 #include "client/evaluate/report/find_plan_areas.h"
 #include "client/evaluate/report/find_report_figures.h"
-#include "client/evaluate/report/find_status_marks.h"
-#include "client/evaluate/report/plot/chart.h"
-#include "client/evaluate/report/plot/text.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_numbers.h"
 
 namespace milepost {
 namespace {
 
-using plot::Chart;
-using plot::Point;
-
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr Point kGap = {kNaN, kNaN};
+constexpr PlanPoint kGap = {kNaN, kNaN};
 constexpr std::size_t kMostDots = 600;
 
-void draw_particles(Chart& chart, const FindSnapshot& snapshot, const PlanArea& area) {
-  const double tick_m = 0.02 * area.east.length();
-  std::vector<Point> places;
-  std::vector<Point> ticks;
+// How the path's dots show a status, in the order in which they are drawn, the first beneath.
+struct StatusDot {
+  FindStatus status;
+  const char* colour;
+  const char* fill;
+  double radius_px;
+  double edge_px;
+};
+
+constexpr std::array<StatusDot, 4> kStatusDots = {{
+    {FindStatus::initializing, "muted", "page", 2.0, 1.2},
+    {FindStatus::lost, "page", "e5", 3.2, 0.8},
+    {FindStatus::predicted, "m0", "page", 2.6, 1.5},
+    {FindStatus::tracking, "page", "m0", 2.6, 0.8},
+}};
+
+// What a layer shows; it has no name, for a legend names it.
+Json with_points(Json layer, const std::vector<PlanPoint>& points) {
+  layer["x"] = easts(points);
+  layer["y"] = norths(points);
+  return layer;
+}
+
+Json cased(Json layer) {
+  layer["cased"] = true;
+  return layer;
+}
+
+Json particle_look() { return dots_layer("particle, with its heading", "particle", 1.5); }
+Json recorded_look() { return line_layer("recorded path so far", "m2", 2.2); }
+Json here_look() { return circles_layer("where it really is", "m2", "clear", 5, 2.5); }
+Json tracked_look() { return line_layer("tracked path so far", "m0", 1.8); }
+Json estimate_look() {
+  return circles_layer("densest place, with its heading and, while tracked, 2\u03C3", "page", "m0",
+                       3, 0.8);
+}
+
+Json walls() { return line_layer("wall", "wall", 1.4, "wall_east_m", "wall_north_m"); }
+
+// Dots, and a stroke from each to where it heads.
+void add_particles(Json& layers, const FindSnapshot& snapshot, const PlanArea& area) {
+  std::vector<PlanPoint> places;
+  Json rotations_deg = Json::array();
   for (const PlanPose& pose : snapshot.particles) {
-    const Point place = {pose.enu_m.x(), pose.enu_m.y()};
+    const PlanPoint place = {pose.enu_m.x(), pose.enu_m.y()};
     if (!area.contains(place)) continue;
-    const Eigen::Vector2d tip = pose.enu_m + tick_m * direction_of(pose.heading_rad);
+    const Eigen::Vector2d way = direction_of(pose.heading_rad);
     places.push_back(place);
-    ticks.insert(ticks.end(), {place, {tip.x(), tip.y()}, kGap});
+    rotations_deg.push_back(rounded(std::atan2(-way.y(), way.x()) / kRadPerDeg, 0));
   }
-  chart.line(ticks, "particle tick");
-  chart.dots(places, "particle");
-}
-
-// On pictures a line needs a light or dark edge.
-void draw_cased(Chart& chart, const std::vector<Point>& points, const std::string& css_class) {
-  chart.line(points, "casing");
-  chart.line(points, css_class);
-}
-
-std::vector<Point> circle_about(const Point& middle, double radius_m) {
-  constexpr int kCorners = 72;
-  std::vector<Point> points;
-  for (int k = 0; k <= kCorners; ++k) {
-    const double angle_rad = 2 * std::numbers::pi * k / kCorners;
-    points.push_back(
-        {middle.x + radius_m * std::cos(angle_rad), middle.y + radius_m * std::sin(angle_rad)});
-  }
-  return points;
-}
-
-// In the upper right corner.
-void draw_north_arrow(Chart& chart, const PlanArea& area) {
-  const Point corner = {area.east.to, area.north.to};
-  for (const char* css_class : {"casing", "north"}) {
-    chart.symbol(corner, -20, 40, css_class, "north");
-  }
-  chart.word(corner, -20, 55, "mid strong", "N");
+  Json strokes = with_points(particle_look(), places);
+  strokes["marker"] = "dash";
+  strokes["rotation_deg"] = rotations_deg;
+  strokes["radius_px"] = 7;
+  strokes["edge_px"] = 1;
+  layers.push_back(strokes);
+  layers.push_back(with_points(particle_look(), places));
 }
 
 // The densest place with its heading, and while tracked a circle of two sigmas.
-void draw_estimate(Chart& chart, const Point& at, const FindFix& fix, const PlanArea& area) {
+void add_estimate(Json& layers, const PlanPoint& at, const FindFix& fix, const PlanArea& area) {
   const Eigen::Vector2d way =
       0.06 * area.east.length() * direction_of(fix.heading_deg * kRadPerDeg);
-  draw_cased(chart, {at, {at.x + way.x(), at.y + way.y()}}, "m0 line chief");
-  if (is_tracked(fix.status)) {
-    draw_cased(chart, circle_about(at, 2 * fix.sigma_m), "m0 line chief");
+  layers.push_back(cased(with_points(tracked_look(), {at, {at.x + way.x(), at.y + way.y()}})));
+  if (is_tracked(fix.status) && std::isfinite(at.x)) {
+    Json circle = cased(tracked_look());
+    circle["at"] = {rounded(at.x, 3), rounded(at.y, 3)};
+    circle["radius_m"] = rounded(2 * fix.sigma_m, 3);
+    layers.push_back(circle);
   }
-  chart.circle(at, 3, "f-tracking", "densest place, \u03C3 " + metres(fix.sigma_m));
+  layers.push_back(with_points(estimate_look(), {at}));
 }
 
-std::vector<Point> until(const std::vector<Point>& path, std::size_t frame) {
+std::vector<PlanPoint> until(const std::vector<PlanPoint>& path, std::size_t frame) {
   return {path.begin(), path.begin() + static_cast<std::ptrdiff_t>(frame) + 1};
 }
 
 // Gaps where the vehicle was not tracked.
-std::vector<Point> tracked_path(const FoundSeries& series) {
-  std::vector<Point> path = series.found;
+std::vector<PlanPoint> tracked_path(const FoundSeries& series) {
+  std::vector<PlanPoint> path = series.found;
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (!is_tracked((*series.input->frames)[i].fix.status)) path[i] = kGap;
   }
   return path;
 }
 
-std::string time_text(double time_s) { return plot::number(time_s, 1) + " s"; }
+std::string time_text(double time_s) { return number(time_s, 1) + " s"; }
 
 std::string moment_of(const FoundSeries& series, std::size_t frame) {
   if (series.summary.found_frame == frame) return "found";
@@ -98,8 +117,7 @@ std::string snapshot_caption(const FoundSeries& series, std::size_t frame, bool 
   const double error_m = series.errors[frame].position_m;
   std::string text = std::string(is_close_up ? "Close-up" : "The whole area") + "; status " +
                      name_of(fix.status) + ", \u03C3 " + metres(fix.sigma_m) + ", " +
-                     plot::number(100 * fix.mass, 0) +
-                     "\u00A0% of the belief in the densest place.";
+                     number(100 * fix.mass, 0) + "\u00A0% of the belief in the densest place.";
   if (std::isfinite(error_m)) text += " Off by " + metres(error_m) + ".";
   return text;
 }
@@ -113,74 +131,69 @@ Figure snapshot_figure(const FoundSeries& series, std::size_t number) {
   figure.heading = std::to_string(number + 1) + "\u2002" + time_text(series.time_s[frame]) + ": " +
                    moment_of(series, frame);
   figure.caption = snapshot_caption(series, frame, close_up.has_value());
-  Chart chart = plan_chart(area, "Walls, particles, paths and estimate: " + figure.heading);
-  chart.shared(kPlanGround);
-  draw_particles(chart, snapshot, area);
-  draw_cased(chart, until(series.recorded, frame), "recorded");
-  draw_cased(chart, until(tracked_path(series), frame), "m0 line chief");
-  chart.circle(series.recorded[frame], 5, "here", "where the camera really was");
-  draw_estimate(chart, series.found[frame], (*series.input->frames)[frame].fix, area);
-  draw_north_arrow(chart, area);
-  draw_scale_bar(chart, area);
-  figure.drawing = chart.svg();
+  Json plot = plan_plot(area, "Walls, particles, paths and estimate: " + figure.heading);
+  plot["legend"] = false;
+  Json& layers = plot["layers"];
+  layers.push_back(walls());
+  add_particles(layers, snapshot, area);
+  layers.push_back(cased(with_points(recorded_look(), until(series.recorded, frame))));
+  layers.push_back(cased(with_points(tracked_look(), until(tracked_path(series), frame))));
+  layers.push_back(with_points(here_look(), {series.recorded[frame]}));
+  add_estimate(layers, series.found[frame], (*series.input->frames)[frame].fix, area);
+  figure.plots.push_back(plot);
   return figure;
-}
-
-std::string dot_text(const FoundSeries& series, std::size_t frame) {
-  const FoundFrame& found = (*series.input->frames)[frame];
-  std::string text =
-      found.filename + ", " + time_text(series.time_s[frame]) + ": " + name_of(found.fix.status);
-  const double error_m = series.errors[frame].position_m;
-  return std::isfinite(error_m) ? text + ", off by " + metres(error_m) : text;
 }
 
 std::size_t dot_stride(const FoundSeries& series) { return series.found.size() / kMostDots + 1; }
 
-void draw_found(Chart& chart, const FoundSeries& series) {
+void add_found(Json& layers, const FoundSeries& series) {
   const std::size_t stride = dot_stride(series);
-  for (const FindStatusMark& mark : kFindStatusMarks) {
+  for (const StatusDot& dot : kStatusDots) {
+    std::vector<PlanPoint> points;
     for (std::size_t i = 0; i < series.found.size(); i += stride) {
-      if ((*series.input->frames)[i].fix.status != mark.status) continue;
-      chart.circle(series.found[i], mark.radius_px, mark.dot_class, dot_text(series, i));
+      if ((*series.input->frames)[i].fix.status == dot.status) points.push_back(series.found[i]);
     }
+    layers.push_back(with_points(
+        circles_layer(name_of(dot.status), dot.colour, dot.fill, dot.radius_px, dot.edge_px),
+        points));
   }
 }
 
-void draw_snapshot_numbers(Chart& chart, const FoundSeries& series) {
+void add_snapshot_numbers(Json& layers, const FoundSeries& series) {
+  std::vector<PlanPoint> places;
+  Json numbers = Json::array();
   for (std::size_t k = 0; k < series.snapshots.size(); ++k) {
-    const Point& at = series.recorded[series.snapshots[k].frame];
-    chart.circle(at, 5, "here", "snapshot " + std::to_string(k + 1));
-    chart.word(at, 9, -6, "strong", std::to_string(k + 1));
+    places.push_back(series.recorded[series.snapshots[k].frame]);
+    numbers.push_back(std::to_string(k + 1));
   }
+  layers.push_back(with_points(circles_layer("snapshot", "m2", "clear", 5, 2.5), places));
+  layers.push_back(texts_layer(numbers, {"left", 9, -6}, easts(places), norths(places)));
 }
 
-std::string line_key(const std::string& css_class, const std::string& words) {
-  return R"(<span><svg width="18" height="8"><path class=")" + css_class +
-         R"(" d="M1 4H17"/></svg>)" + words + "</span> ";
+std::string base64_of(ByteView bytes) {
+  std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
+  sodium_bin2base64(text.data(), text.size(), bytes.data(), bytes.size(),
+                    sodium_base64_VARIANT_ORIGINAL);
+  text.pop_back();  // the terminating zero
+  return text;
 }
 
-std::string dot_key(const std::string& css_class, const std::string& words) {
-  return R"(<span><svg width="12" height="12"><circle class=")" + css_class +
-         R"(" cx="6" cy="6" r="4"/></svg>)" + words + "</span> ";
-}
-
-std::string path_legend() {
-  std::string html = R"(<p class="legend">)" + line_key("recorded", "recorded path");
-  for (const FindStatusMark& mark : kFindStatusMarks) {
-    html += dot_key(mark.dot_class, name_of(mark.status));
-  }
-  return html + dot_key("here", "snapshot") + "</p>\n";
+// The picture's two sides are straight and even in metres, as far as a plan reaches: to the right,
+// downwards, and where they meet, each east and north.
+Json json_of(const PagePicture& picture, const LocalFrame& frame) {
+  const PlanPoint origin = on_plan(frame, picture.top_left);
+  const PlanPoint right = on_plan(frame, picture.top_right);
+  const PlanPoint down = on_plan(frame, picture.bottom_left);
+  return {{"east_north_m", rounded({right.x - origin.x, right.y - origin.y, down.x - origin.x,
+                                    down.y - origin.y, origin.x, origin.y},
+                                   3)},
+          {"href", "data:image/jpeg;base64," + base64_of(picture.jpeg)}};
 }
 
 }  // namespace
 
-std::string plan_legend() {
-  return R"(<p class="legend">)" + line_key("wall", "wall") +
-         line_key("particle", "particle, with its heading") +
-         line_key("recorded", "recorded path so far") + dot_key("here", "where it really is") +
-         line_key("m0 line chief", "tracked path so far") +
-         dot_key("f-tracking", "densest place, with its heading and, while tracked, 2\u03C3") +
-         "</p>\n";
+Json plan_keys() {
+  return {walls(), particle_look(), recorded_look(), here_look(), tracked_look(), estimate_look()};
 }
 
 std::vector<Figure> snapshot_figures(const FoundSeries& series) {
@@ -194,23 +207,36 @@ std::vector<Figure> snapshot_figures(const FoundSeries& series) {
 Figure path_figure(const FoundSeries& series) {
   Figure figure;
   figure.heading = "The whole path";
-  figure.legend = path_legend();
   const std::size_t stride = dot_stride(series);
   figure.caption =
       "Metres east and north, to scale. Each dot is where the belief was densest in a frame" +
       (stride > 1 ? ", one of " + std::to_string(stride) + " frames" : std::string()) +
-      "; the line is where the camera really was. While nothing is found the densest place jumps, "
-      "and dots outside the plan are not drawn. Numbers are those of the snapshots.";
-  const PlanArea area = path_area(series);
-  Chart chart = plan_chart(area, "The recorded path and what was found in plan view");
-  chart.shared(kPlanGround);
-  draw_cased(chart, series.recorded, "recorded");
-  draw_found(chart, series);
-  draw_snapshot_numbers(chart, series);
-  draw_north_arrow(chart, area);
-  draw_scale_bar(chart, area);
-  figure.drawing = chart.svg();
+      "; the line is where the camera really was. While nothing is found the densest place jumps. "
+      "Numbers are those of the snapshots.";
+  Json plot = plan_plot(path_area(series), "The recorded path and what was found in plan view");
+  Json& layers = plot["layers"];
+  layers.push_back(walls());
+  Json recorded = cased(line_layer("recorded path", "m2", 2.2, "east_m", "north_m"));
+  layers.push_back(recorded);
+  add_found(layers, series);
+  add_snapshot_numbers(layers, series);
+  figure.plots.push_back(plot);
   return figure;
+}
+
+void add_ground(Json& page, const FoundSeries& series) {
+  std::vector<PlanPoint> corners;
+  for (const PlanWall& wall : series.input->recorder->walls()) {
+    corners.insert(corners.end(),
+                   {{wall.begin_m.x(), wall.begin_m.y()}, {wall.end_m.x(), wall.end_m.y()}, kGap});
+  }
+  page["columns"]["wall_east_m"] = easts(corners);
+  page["columns"]["wall_north_m"] = norths(corners);
+  if (!series.input->backdrop) return;
+  const std::optional<PagePicture> picture =
+      page_picture(*series.input->backdrop, shown_bounds(series));
+  if (!picture) return;
+  page["ground"]["picture"] = json_of(*picture, LocalFrame(series.input->recorder->origin()));
 }
 
 }  // namespace milepost

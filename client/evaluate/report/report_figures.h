@@ -1,14 +1,14 @@
 // The figures of the report. Each can tell what it shows even where there is nothing to draw.
 #pragma once
 
-#include "client/evaluate/report/report_page.h"
+#include "client/evaluate/report/report_json.h"
 #include "client/evaluate/report/report_series.h"
 
 namespace milepost {
 
 // Along the route (report_route.cc). REQUIRES: there is a method.
 Figure error_figure(const ReportSeries& series);
-Figure lateral_figure(const ReportSeries& all);  // of the methods that know their lateral
+Figure lateral_figure(const ReportSeries& all);  // of the methods that know their lateral offset
 Figure matches_figure(const ReportSeries& series);
 Figure latency_figure(const ReportSeries& series);
 
@@ -18,5 +18,11 @@ Figure cumulative_figure(const ReportSeries& series);
 
 // In plan view (report_map.cc). REQUIRES: there is a method.
 Figure map_figure(const ReportInput& input, const ReportSeries& series);
+// Adds where each frame was taken to the page's columns, and to its `frames`.
+void add_places(Json& page, const ReportInput& input);
+
+// Frame by frame (report_frames.cc): adds the page's columns, and `frames`, which says what is told
+// of a frame. REQUIRES: there is a method.
+void add_frames(Json& page, const ReportSeries& series);
 
 }  // namespace milepost

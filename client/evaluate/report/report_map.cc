@@ -5,16 +5,12 @@
 #include <limits>
 #include <optional>
 
-#include "client/evaluate/report/plot/chart.h"
-#include "client/evaluate/report/plot/text.h"
 #include "client/evaluate/report/report_figures.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_plan.h"
 
 namespace milepost {
 namespace {
-
-using plot::Chart;
-using plot::Point;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDecimetre = 0.1;
@@ -23,17 +19,17 @@ constexpr double kDecimetre = 0.1;
 struct ErrorClass {
   double up_to_m;
   const char* words;
-  const char* css_class;
+  const char* colour;
   double radius_px;
 };
 
 constexpr std::array<ErrorClass, 6> kErrorClasses = {{
-    {0.05, "up to 0.05 m", "e0", 2.6},
-    {0.1, "0.1 m", "e1", 2.9},
-    {0.2, "0.2 m", "e2", 3.2},
-    {0.5, "0.5 m", "e3", 3.7},
-    {1.0, "1 m", "e4", 4.2},
-    {std::numeric_limits<double>::infinity(), "more", "e5", 4.8},
+    {0.05, "error up to 0.05 m", "e0", 2.6},
+    {0.1, "up to 0.1 m", "e1", 2.9},
+    {0.2, "up to 0.2 m", "e2", 3.2},
+    {0.5, "up to 0.5 m", "e3", 3.7},
+    {1.0, "up to 1 m", "e4", 4.2},
+    {std::numeric_limits<double>::infinity(), "more than 1 m", "e5", 4.8},
 }};
 
 std::size_t class_of(double error_m) {
@@ -44,9 +40,9 @@ std::size_t class_of(double error_m) {
 }
 
 struct PlanView {
-  std::vector<Point> line;   // of the segment
-  std::vector<Point> path;   // of the query, one a frame
-  std::vector<Point> fixes;  // of the chief method, one a fix
+  std::vector<PlanPoint> line;   // of the segment
+  std::vector<PlanPoint> path;   // of the query, one a frame
+  std::vector<PlanPoint> fixes;  // of the reference method, one a fix
 };
 
 std::optional<GeoPoint> origin_of(const ReportInput& input) {
@@ -70,9 +66,9 @@ PlanView plan_view(const ReportInput& input, const ReportSeries& series, const G
       plan.path.push_back(on_plan(frame, each.position));
     }
   }
-  for (const EvaluatedFix& fix : series.chief_method().evaluation->fixes) {
+  for (const EvaluatedFix& fix : series.reference_method().evaluation->fixes) {
     const std::optional<GeoPoint>& position = fix.frame.fix.position;
-    plan.fixes.push_back(position ? on_plan(frame, *position) : Point{kNaN, kNaN});
+    plan.fixes.push_back(position ? on_plan(frame, *position) : PlanPoint{kNaN, kNaN});
   }
   return plan;
 }
@@ -96,59 +92,49 @@ PlanArea area_of(const PlanView& plan) {
 }
 
 // The worst on top, where they cannot be missed.
-void draw_fixes(Chart& chart, const PlanView& plan, const MethodSeries& method) {
+void add_fixes(Json& layers, const PlanView& plan, const MethodSeries& method) {
   for (std::size_t k = 0; k < kErrorClasses.size(); ++k) {
-    const ErrorClass& error_class = kErrorClasses.at(k);
+    std::vector<PlanPoint> points;
     for (std::size_t i = 0; i < plan.fixes.size(); ++i) {
       const double error_m = method.error_m[i];
-      if (std::isnan(error_m) || class_of(error_m) != k) continue;
-      chart.circle(plan.fixes[i], error_class.radius_px, error_class.css_class,
-                   method.evaluation->fixes[i].frame.filename + ": " +
-                       plot::signed_number(error_m, 2) + " m");
+      if (!std::isnan(error_m) && class_of(error_m) == k) points.push_back(plan.fixes[i]);
     }
+    const ErrorClass& each = kErrorClasses.at(k);
+    layers.push_back(
+        dots_layer(each.words, each.colour, each.radius_px, easts(points), norths(points)));
   }
 }
 
-void draw_frames_without_fix(Chart& chart, const PlanView& plan, const MethodSeries& method) {
+Json frames_without_fix(const PlanView& plan, const MethodSeries& method) {
+  std::vector<PlanPoint> points;
   for (std::size_t i = 0; i < std::min(plan.path.size(), method.error_m.size()); ++i) {
-    if (!std::isnan(method.error_m[i])) continue;
-    chart.circle(plan.path[i], 2.5, "nofix",
-                 method.evaluation->fixes[i].frame.filename + ": no fix");
+    if (std::isnan(method.error_m[i])) points.push_back(plan.path[i]);
   }
+  return circles_layer("frame without a fix", "muted", "page", 2.5, 1.2, easts(points),
+                       norths(points));
 }
 
-void draw_ends(Chart& chart, const std::vector<Point>& path) {
-  const auto is_drawn = [](const Point& point) { return std::isfinite(point.x); };
+void add_ends(Json& layers, const std::vector<PlanPoint>& path) {
+  const auto is_drawn = [](const PlanPoint& point) { return std::isfinite(point.x); };
   const auto start = std::find_if(path.begin(), path.end(), is_drawn);
   const auto end = std::find_if(path.rbegin(), path.rend(), is_drawn);
   if (start == path.end()) return;
   // Away from the path, which lies on the other side of each end's name.
   const bool heads_north = end->y >= start->y;
-  chart.circle(*start, 5, "ring", "start");
-  chart.circle(*end, 5, "ring", "end");
-  chart.word(*start, 0, heads_north ? 20 : -10, "mid strong", "start");
-  chart.word(*end, 0, heads_north ? -10 : 20, "mid strong", "end");
-}
-
-std::string map_legend(const MethodSeries& method) {
-  std::string html =
-      R"(<p class="legend"><span><svg width="18" height="8"><path class="road" )"
-      R"(d="M1 4H17"/></svg>segment</span> <span><svg width="18" height="8"><path )"
-      R"(class="path" d="M1 4H17"/></svg>recorded path</span> <span><svg width="10" )"
-      R"(height="10"><circle class="nofix" cx="5" cy="5" r="2.5"/></svg>frame without a )"
-      "fix</span></p>\n<p class=\"legend\"><span>error of " +
-      plot::escaped(method.name) + "</span> ";
-  for (const ErrorClass& each : kErrorClasses) {
-    html += std::string(R"(<span><svg width="10" height="10"><circle class=")") + each.css_class +
-            R"(" cx="5" cy="5" r=")" + plot::number(each.radius_px, 1) + R"("/></svg>)" +
-            each.words + "</span> ";
-  }
-  return html + "</p>\n";
+  const auto add = [&](const PlanPoint& at, const char* word, bool is_below) {
+    const Json x = easts({at});
+    const Json y = norths({at});
+    layers.push_back(circles_layer("", "ink", "clear", 5, 1.5, x, y));
+    layers.push_back(texts_layer(Json::array({word}), {"center", 0, is_below ? 20 : -10}, x, y));
+  };
+  add(*start, "start", heads_north);
+  add(*end, "end", !heads_north);
 }
 
 std::string map_caption(const MethodSeries& method) {
   std::string text = "Metres east and north, to scale. Each dot is a fix of " + method.name +
-                     " on the segment's line; the darker line is where the camera really was.";
+                     " on the segment's line, the larger the farther off; the thin line is where "
+                     "the camera really was.";
   const std::vector<double>& errors_m = method.localized_errors_m;
   if (errors_m.empty()) return text;
   const auto near = std::count_if(errors_m.begin(), errors_m.end(),
@@ -162,22 +148,34 @@ std::string map_caption(const MethodSeries& method) {
 Figure map_figure(const ReportInput& input, const ReportSeries& series) {
   Figure figure;
   figure.heading = "On the map";
-  const MethodSeries& chief = series.chief_method();
-  figure.legend = map_legend(chief);
   const std::optional<GeoPoint> origin = origin_of(input);
   if (!origin) return figure;
-  figure.caption = map_caption(chief);
+  const MethodSeries& reference = series.reference_method();
+  figure.caption = map_caption(reference);
   const PlanView plan = plan_view(input, series, *origin);
-  const PlanArea area = area_of(plan);
-  Chart chart = plan_chart(area, "The segment, the recorded path and the fixes in plan view");
-  chart.line(plan.line, "road");
-  chart.line(plan.path, "path");
-  draw_frames_without_fix(chart, plan, chief);
-  draw_fixes(chart, plan, chief);
-  draw_ends(chart, plan.path);
-  draw_scale_bar(chart, area);
-  figure.drawing = chart.svg();
+  Json plot = plan_plot(area_of(plan), "The segment, the recorded path and the fixes in plan view");
+  Json& layers = plot["layers"];
+  layers.push_back(line_layer("segment", "road", 9, easts(plan.line), norths(plan.line)));
+  if (!plan.path.empty()) {
+    layers.push_back(line_layer("recorded path", "muted", 1.2, "east_m", "north_m"));
+  }
+  layers.push_back(frames_without_fix(plan, reference));
+  add_fixes(layers, plan, reference);
+  add_ends(layers, plan.path);
+  figure.plots.push_back(plot);
   return figure;
+}
+
+void add_places(Json& page, const ReportInput& input) {
+  const std::optional<GeoPoint> origin = origin_of(input);
+  if (!origin || input.drive == nullptr) return;
+  const LocalFrame frame(*origin);
+  std::vector<PlanPoint> path;
+  for (const Frame& each : input.drive->frames) path.push_back(on_plan(frame, each.position));
+  page["columns"]["east_m"] = easts(path);
+  page["columns"]["north_m"] = norths(path);
+  page["frames"]["east"] = "east_m";
+  page["frames"]["north"] = "north_m";
 }
 
 }  // namespace milepost

@@ -1,30 +1,40 @@
 #include "client/evaluate/report/report_numbers.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
-#include "client/evaluate/report/plot/text.h"
 #include "client/evaluate/statistics.h"
 
 namespace milepost {
 namespace {
 
 constexpr double kHeadroom = 1.05;  // so that the greatest value is not half outside the plot
+constexpr double kRounding = 1e-9;  // of a step: a length that is one is not longer than one
 
 }  // namespace
 
-double robust_reach(std::vector<double> magnitudes) {
-  magnitudes = finite_only(magnitudes);
-  if (magnitudes.empty()) return 0;
-  for (double& each : magnitudes) each = std::abs(each);
-  std::sort(magnitudes.begin(), magnitudes.end());
-  const double usual = quantile(magnitudes, 0.9);
-  return kHeadroom * (usual > 0 ? std::min(magnitudes.back(), 2.5 * usual) : magnitudes.back());
+std::string number(double value, int decimals) {
+  if (!std::isfinite(value)) return "\u2013";
+  std::array<char, 400> buffer{};  // the longest double has 309 digits before the point
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(value),
+                                 std::chars_format::fixed, decimals);
+  const std::string digits(buffer.data(), end.ptr);
+  const bool is_zero = digits.find_first_of("123456789") == std::string::npos;
+  return value < 0 && !is_zero ? "\u2212" + digits : digits;
+}
+
+std::string signed_number(double value, int decimals) {
+  const std::string text = number(value, decimals);
+  const bool is_positive =
+      value > 0 && std::isfinite(value) && text.find_first_of("123456789") != std::string::npos;
+  return is_positive ? "+" + text : text;
 }
 
 std::string metres(double value) {
   // Decimals follow the number as it is printed: 0.0996 is 0.10.
-  return plot::number(value, std::abs(value) < 0.0995 ? 3 : 2) + "\u00A0m";
+  return number(value, std::abs(value) < 0.0995 ? 3 : 2) + "\u00A0m";
 }
 
 std::string counted(std::size_t count, const std::string& noun) {
@@ -38,6 +48,31 @@ std::string listed(const std::vector<std::string>& words) {
     text += words[i];
   }
   return text;
+}
+
+double robust_reach(std::vector<double> magnitudes) {
+  magnitudes = finite_only(magnitudes);
+  if (magnitudes.empty()) return 0;
+  for (double& each : magnitudes) each = std::abs(each);
+  std::sort(magnitudes.begin(), magnitudes.end());
+  const double usual = quantile(magnitudes, 0.9);
+  return kHeadroom * (usual > 0 ? std::min(magnitudes.back(), 2.5 * usual) : magnitudes.back());
+}
+
+RoundStep round_step(double least) {
+  const double exponent = std::floor(std::log10(least));
+  const double power = std::pow(10, exponent);
+  for (const double digit : {1, 2, 5}) {
+    if (digit * power < least * (1 - kRounding)) continue;
+    return {digit * power, std::max(0, static_cast<int>(-exponent))};
+  }
+  return {10 * power, std::max(0, static_cast<int>(-exponent) - 1)};
+}
+
+double rounded_up(double reach, int steps) {
+  if (!std::isfinite(reach) || reach <= 0) return 1;
+  const double step = round_step(reach / steps).length;
+  return step * std::ceil(reach / step - kRounding);
 }
 
 }  // namespace milepost

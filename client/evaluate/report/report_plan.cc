@@ -2,26 +2,14 @@
 
 #include <cmath>
 
-#include "client/evaluate/report/plot/text.h"
-
 namespace milepost {
 namespace {
 
-using plot::Axis;
-using plot::Chart;
-using plot::Point;
-
-constexpr int kMostTicks = 7;
-
-// Only so many ticks that both axes have the same step.
-Axis same_step_axis(const std::string& label, const Extent& extent, double step) {
-  return Axis::spanning(label, extent.from, extent.to,
-                        static_cast<int>(std::ceil(extent.length() / step)));
-}
+constexpr int kDecimals = 3;
 
 }  // namespace
 
-Point on_plan(const LocalFrame& frame, const GeoPoint& point) {
+PlanPoint on_plan(const LocalFrame& frame, const GeoPoint& point) {
   if (!is_valid(point)) return {std::nan(""), std::nan("")};
   const EnuPoint enu = frame.enu_from_geo(point);
   return {enu.east_m, enu.north_m};
@@ -38,8 +26,8 @@ void Extent::widen_to(double length) {
   to = middle + length / 2;
 }
 
-void PlanArea::include(const std::vector<Point>& points) {
-  for (const Point& point : points) {
+void PlanArea::include(const std::vector<PlanPoint>& points) {
+  for (const PlanPoint& point : points) {
     east.include(point.x);
     north.include(point.y);
   }
@@ -47,25 +35,28 @@ void PlanArea::include(const std::vector<Point>& points) {
 
 bool PlanArea::is_empty() const { return std::isnan(east.from) || std::isnan(north.from); }
 
-bool PlanArea::contains(const Point& point) const {
+bool PlanArea::contains(const PlanPoint& point) const {
   return east.contains(point.x) && north.contains(point.y);
 }
 
-Chart plan_chart(const PlanArea& area, const std::string& description) {
-  const double step = plot::round_ticks(area.east.from, area.east.to, kMostTicks).step;
-  return Chart::of_equal_units(same_step_axis("east (m)", area.east, step),
-                               same_step_axis("north (m)", area.north, step), description);
+Json plan_plot(const PlanArea& area, const std::string& description) {
+  return {{"plan", true},
+          {"description", description},
+          {"x", axis("east (m)", area.east.from, area.east.to)},
+          {"y", axis("north (m)", area.north.from, area.north.to)},
+          {"layers", Json::array()}};
 }
 
-void draw_scale_bar(Chart& chart, const PlanArea& area) {
-  const double length_m = plot::round_ticks(0, area.east.length(), 6).step;
-  const double right = area.east.to - 0.03 * area.east.length();
-  const double y = area.north.from + 0.07 * area.north.length();
-  const std::vector<Point> bar = {{right - length_m, y}, {right, y}};
-  chart.line(bar, "casing");
-  chart.line(bar, "scale");
-  chart.word({right - length_m / 2, y}, 0, -7, "mid strong",
-             plot::number(length_m, plot::round_ticks(0, length_m, 1).decimals) + " m");
+Json easts(const std::vector<PlanPoint>& points) {
+  Json array = Json::array();
+  for (const PlanPoint& point : points) array.push_back(rounded(point.x, kDecimals));
+  return array;
+}
+
+Json norths(const std::vector<PlanPoint>& points) {
+  Json array = Json::array();
+  for (const PlanPoint& point : points) array.push_back(rounded(point.y, kDecimals));
+  return array;
 }
 
 }  // namespace milepost

@@ -1,17 +1,23 @@
-// What the reports' plan views share: the area that is shown, and the chart for it.
+// What the reports' plan views share: the area that is shown, and the plot of it.
 #pragma once
 
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "client/evaluate/report/plot/chart.h"
+#include "client/evaluate/report/report_json.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
 
-// Metres east and north of the frame's origin; NaN where the position is not valid.
-plot::Point on_plan(const LocalFrame& frame, const GeoPoint& point);
+// Metres east and north.
+struct PlanPoint {
+  double x = 0;
+  double y = 0;
+};
+
+// Of the frame's origin; NaN where the position is not valid.
+PlanPoint on_plan(const LocalFrame& frame, const GeoPoint& point);
 
 // From the least to the greatest of the values that were included; NaN before the first.
 struct Extent {
@@ -28,16 +34,17 @@ struct PlanArea {
   Extent east;
   Extent north;
 
-  void include(const std::vector<plot::Point>& points);
+  void include(const std::vector<PlanPoint>& points);
   bool is_empty() const;
-  bool contains(const plot::Point& point) const;  // borders included
+  bool contains(const PlanPoint& point) const;  // borders included
 };
 
-// A chart of the area, in metres and to scale; both axes have ticks equally far apart.
+// A plot of the area, to scale, without layers: {plan, description, x, y, layers}.
 // REQUIRES: the area is not empty.
-plot::Chart plan_chart(const PlanArea& area, const std::string& description);
+Json plan_plot(const PlanArea& area, const std::string& description);
 
-// In the lower right corner, legible on pictures too.
-void draw_scale_bar(plot::Chart& chart, const PlanArea& area);
+// East and north of each point, in metres to the millimetre, for a layer's x and y.
+Json easts(const std::vector<PlanPoint>& points);
+Json norths(const std::vector<PlanPoint>& points);
 
 }  // namespace milepost

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "client/evaluate/report/plot/text.h"
 #include "client/evaluate/report/report_numbers.h"
 #include "client/evaluate/statistics.h"
 
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // The method that each colour of the style belongs to, here and in the laboratory's report
-// (tests/lab/laboratory/drawing.py).
+// (tests/lab/laboratory/figures.py).
 constexpr std::array<std::string_view, 9> kMethodOfColour = {kDefaultMethod,
                                                              "tracklet-regression-kalman",
                                                              "tracklet-regression",
@@ -59,10 +58,14 @@ std::vector<double> driven_m(const Drive& drive) {
   return driven;
 }
 
-std::vector<double> truth_alongs(const MethodEvaluation& evaluation) {
+// Of each frame, as the first method that knows it has it.
+std::vector<double> truth_alongs(const std::vector<MethodEvaluation>& methods) {
   std::vector<double> alongs;
-  for (const EvaluatedFix& fix : evaluation.fixes) {
-    alongs.push_back(finite_or_nan(fix.truth_along_m));
+  for (const MethodEvaluation& evaluation : methods) {
+    alongs.resize(std::max(alongs.size(), evaluation.fixes.size()), kNaN);
+    for (std::size_t i = 0; i < evaluation.fixes.size(); ++i) {
+      if (std::isnan(alongs[i])) alongs[i] = finite_or_nan(evaluation.fixes[i].truth_along_m);
+    }
   }
   return alongs;
 }
@@ -81,7 +84,7 @@ MethodSeries series_of(const MethodEvaluation& evaluation) {
   return method;
 }
 
-std::size_t chief_of(const std::vector<MethodEvaluation>& methods) {
+std::size_t reference_of(const std::vector<MethodEvaluation>& methods) {
   for (std::size_t i = 0; i < methods.size(); ++i) {
     if (methods[i].summary.method == kDefaultMethod) return i;
   }
@@ -105,26 +108,24 @@ void give_colours(ReportSeries& series) {
                                    ? static_cast<std::size_t>(known - kMethodOfColour.begin())
                                : left_over.empty() ? others++ % kMethodOfColour.size()
                                                    : left_over[others++ % left_over.size()];
-    method.css_class = "m" + std::to_string(colour);
+    method.colour = "m" + std::to_string(colour);
   }
 }
 
 void place_on_route(ReportSeries& series, const ReportInput& input) {
   const bool by_along = input.drive == nullptr || on_one_segment(input.methods);
-  series.route_label = by_along ? "true position along the segment (m)" : "distance driven (m)";
-  const std::vector<double> driven = by_along ? std::vector<double>{} : driven_m(*input.drive);
-  double from_m = kNaN;
-  double to_m = kNaN;
-  for (MethodSeries& method : series.methods) {
-    method.route_m = by_along ? truth_alongs(*method.evaluation) : driven;
-    method.route_m.resize(method.error_m.size(), kNaN);
-    for (const double at_m : method.route_m) {  // fmin and fmax pass over NaN
-      from_m = std::fmin(from_m, at_m);
-      to_m = std::fmax(to_m, at_m);
-    }
+  series.route_label = by_along ? "true arc length" : "distance driven";
+  series.route_m = by_along ? truth_alongs(input.methods) : driven_m(*input.drive);
+  std::size_t frames = 0;
+  for (const MethodSeries& method : series.methods) {
+    frames = std::max(frames, method.error_m.size());
   }
-  series.route_from_m = from_m;
-  series.route_to_m = to_m;
+  series.route_m.resize(frames, kNaN);
+  series.route_from_m = series.route_to_m = kNaN;
+  for (const double at_m : series.route_m) {  // fmin and fmax pass over NaN
+    series.route_from_m = std::fmin(series.route_from_m, at_m);
+    series.route_to_m = std::fmax(series.route_to_m, at_m);
+  }
 }
 
 double error_limit_m(const std::vector<MethodSeries>& methods,
@@ -150,9 +151,9 @@ bool ReportSeries::knows_lateral() const {
 std::vector<const MethodSeries*> ReportSeries::back_to_front() const {
   std::vector<const MethodSeries*> order;
   for (const MethodSeries& method : methods) {
-    if (&method != &methods[chief]) order.push_back(&method);
+    if (&method != &methods[reference]) order.push_back(&method);
   }
-  if (!methods.empty()) order.push_back(&methods[chief]);
+  if (!methods.empty()) order.push_back(&methods[reference]);
   return order;
 }
 
@@ -160,8 +161,9 @@ ReportSeries report_series(const ReportInput& input) {
   ReportSeries series;
   for (const MethodEvaluation& evaluation : input.methods) {
     series.methods.push_back(series_of(evaluation));
+    series.methods.back().number = series.methods.size() - 1;
   }
-  series.chief = chief_of(input.methods);
+  series.reference = reference_of(input.methods);
   give_colours(series);
   place_on_route(series, input);
   series.error_limit_m = error_limit_m(series.methods, &MethodSeries::error_m);
@@ -172,22 +174,13 @@ ReportSeries report_series(const ReportInput& input) {
 ReportSeries only(const ReportSeries& all, const std::function<bool(const MethodSeries&)>& shown) {
   ReportSeries chosen = all;
   chosen.methods.clear();
-  chosen.chief = 0;
+  chosen.reference = 0;
   for (const MethodSeries& method : all.methods) {
     if (!shown(method)) continue;
-    if (&method == &all.chief_method()) chosen.chief = chosen.methods.size();
+    if (&method == &all.reference_method()) chosen.reference = chosen.methods.size();
     chosen.methods.push_back(method);
   }
   return chosen;
-}
-
-std::string method_legend(const ReportSeries& series) {
-  std::string html = "<p class=\"legend\">";
-  for (const MethodSeries& method : series.methods) {
-    html += "<span class=\"" + method.css_class + "\"><i></i>" + plot::escaped(method.name) +
-            "</span> ";
-  }
-  return html + "</p>\n";
 }
 
 }  // namespace milepost

@@ -1,32 +1,38 @@
-// What the report draws: the numbers of an evaluation, one series a method.
+// What the report shows: the numbers of an evaluation, one series a method.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "client/evaluate/report/report.h"
+#include "client/evaluate/report/report_data.h"
 
 namespace milepost {
 
 struct MethodSeries {
   std::string name;
-  std::string css_class;  // "m0" to "m8": its colour
+  std::string colour;      // "m0" to "m8"
+  std::size_t number = 0;  // among the methods of the input
   const MethodEvaluation* evaluation = nullptr;
   // One a fix; NaN where unknown.
-  std::vector<double> route_m;             // where on the route
-  std::vector<double> error_m;             // signed
+  std::vector<double> error_m;             // signed, of the arc length
   std::vector<double> localized_errors_m;  // the known ones of error_m, ascending
-  std::vector<double> lateral_error_m;     // signed
+  std::vector<double> lateral_error_m;     // signed, of the lateral offset
   std::vector<double> heading_error_deg;   // signed
 
   bool knows_lateral() const { return evaluation->summary.knows_lateral(); }
+  // The name of a column of the method's values in the page.
+  std::string column(const std::string& values) const {
+    return std::to_string(number) + "." + values;
+  }
 };
 
 struct ReportSeries {
   std::vector<MethodSeries> methods;  // in the order of the input
-  std::size_t chief = 0;              // the default method, or else the first
-  std::string route_label;            // what route_m is, with its unit
+  std::size_t reference = 0;          // the default method, or else the first
+  std::string route_label;            // what route_m is
+  std::vector<double> route_m;        // where on the route each frame was taken; NaN where unknown
   double route_from_m = 0;
   double route_to_m = 0;
   // Errors up to this much are drawn to scale, in either direction; some of a method's may be
@@ -34,19 +40,18 @@ struct ReportSeries {
   double error_limit_m = 0;
   double lateral_limit_m = 0;  // the same of lateral errors
 
+  bool has_route() const { return std::isfinite(route_from_m); }
   bool knows_lateral() const;  // some method
   // REQUIRES: there is a method.
-  const MethodSeries& chief_method() const { return methods[chief]; }
-  // Order of drawing: the chief last, on top.
+  const MethodSeries& reference_method() const { return methods[reference]; }
+  // Order of drawing: the reference method last, on top.
   std::vector<const MethodSeries*> back_to_front() const;
 };
 
 ReportSeries report_series(const ReportInput& input);
 
-// The methods of which `shown` is true, with the scales of all; another chief where it is not.
+// The methods of which `shown` is true, with the scales of all; another reference method where it
+// is not.
 ReportSeries only(const ReportSeries& all, const std::function<bool(const MethodSeries&)>& shown);
-
-// One coloured name a method, as HTML.
-std::string method_legend(const ReportSeries& series);
 
 }  // namespace milepost

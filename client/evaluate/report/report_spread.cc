@@ -3,24 +3,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "client/evaluate/report/plot/chart.h"
-#include "client/evaluate/report/plot/text.h"
 #include "client/evaluate/report/report_figures.h"
+#include "client/evaluate/report/report_layers.h"
 #include "client/evaluate/report/report_numbers.h"
+#include "client/evaluate/statistics.h"
 
 namespace milepost {
 namespace {
-
-using plot::Axis;
-using plot::Chart;
-using plot::HoverStrip;
-using plot::Point;
 
 constexpr int kPlotHeightPx = 250;
 constexpr int kMostBins = 30;
 constexpr int kFewestBins = 10;
 constexpr double kMostScales = 8;  // finer bins than this would leave them empty
-constexpr int kDensityPoints = 240;
+constexpr int kDensityPoints = 120;
+constexpr int kCumulativePoints = 200;
 
 // Bins of one width, as many on either side of zero.
 struct Bins {
@@ -33,16 +29,16 @@ struct Bins {
   double from_m(int bin) const { return (bin - per_side) * width_m; }
 };
 
-// Fine enough for the chief method, whose errors may fill only a part of the common scale.
+// Fine enough for the reference method, whose errors may fill only a part of the common scale.
 Bins common_bins(const ReportSeries& series) {
-  const std::vector<double>& errors_m = series.chief_method().localized_errors_m;
+  const std::vector<double>& errors_m = series.reference_method().localized_errors_m;
   const int wanted =
       std::clamp(static_cast<int>(2 * std::sqrt(errors_m.size())), kFewestBins, kMostBins);
   const double reach_m =
       std::clamp(robust_reach(errors_m), series.error_limit_m / kMostScales, series.error_limit_m);
-  const plot::Ticks ticks = plot::round_ticks(-reach_m, reach_m, wanted);
-  const double per_side = std::ceil(series.error_limit_m / ticks.step - 1e-9);
-  return {ticks.step, static_cast<int>(per_side), ticks.decimals};
+  const RoundStep step = round_step(2 * reach_m / wanted);
+  const double per_side = std::ceil(series.error_limit_m / step.length - 1e-9);
+  return {step.length, static_cast<int>(per_side), step.decimals};
 }
 
 struct Histogram {
@@ -73,14 +69,22 @@ Histogram histogram_of(const std::vector<double>& errors_m, const Bins& bins) {
   return histogram;
 }
 
-std::vector<Point> outline(const Histogram& histogram, const Bins& bins) {
-  std::vector<Point> points = {{-bins.limit_m(), 0}};
-  for (int bin = 0; bin < bins.count(); ++bin) {
-    points.push_back({bins.from_m(bin), histogram.share_percent(bin)});
-    points.push_back({bins.from_m(bin + 1), histogram.share_percent(bin)});
+// Where the steps of an outline begin: at each bin's left edge, from and to zero at the ends.
+Json edges_m(const Bins& bins) {
+  Json edges = Json::array({rounded(-bins.limit_m(), bins.decimals)});
+  for (int bin = 0; bin <= bins.count(); ++bin) {
+    edges.push_back(rounded(bins.from_m(bin), bins.decimals));
   }
-  points.push_back({bins.limit_m(), 0});
-  return points;
+  return edges;
+}
+
+Json outline_percent(const Histogram& histogram, const Bins& bins) {
+  Json shares = Json::array({0});
+  for (int bin = 0; bin < bins.count(); ++bin) {
+    shares.push_back(rounded(histogram.share_percent(bin), 3));
+  }
+  shares.push_back(0);
+  return shares;
 }
 
 // Of the errors inside the bins: those beyond are said in words and would only widen the curve.
@@ -91,18 +95,11 @@ struct Normal {
 };
 
 Normal normal_of(const std::vector<double>& errors_m, const Bins& bins) {
-  double sum = 0;
-  double squares = 0;
-  double count = 0;
-  for (const double error_m : errors_m) {
-    if (std::abs(error_m) > bins.limit_m()) continue;
-    sum += error_m;
-    squares += error_m * error_m;
-    ++count;
-  }
-  const double mean_m = sum / count;
-  return {mean_m, std::sqrt(std::max(0.0, squares / count - mean_m * mean_m)),
-          count / static_cast<double>(errors_m.size())};
+  std::vector<double> inside_m;
+  std::copy_if(errors_m.begin(), errors_m.end(), std::back_inserter(inside_m),
+               [&](double error_m) { return std::abs(error_m) <= bins.limit_m(); });
+  return {mean_of(inside_m), deviation_of(inside_m),
+          static_cast<double>(inside_m.size()) / static_cast<double>(errors_m.size())};
 }
 
 double peak_percent(const Normal& normal, const Bins& bins) {
@@ -110,15 +107,17 @@ double peak_percent(const Normal& normal, const Bins& bins) {
 }
 
 // In percent of the frames a bin, like the histogram.
-std::vector<Point> density_points(const Normal& normal, const Bins& bins) {
-  std::vector<Point> points;
+Json density_layer(const Normal& normal, const Bins& bins) {
+  Json x = Json::array();
+  Json y = Json::array();
   const double peak = peak_percent(normal, bins);
   for (int i = 0; i <= kDensityPoints; ++i) {
     const double at_m = bins.limit_m() * (2.0 * i / kDensityPoints - 1);
     const double sigmas = (at_m - normal.mean_m) / normal.sigma_m;
-    points.push_back({at_m, peak * std::exp(-sigmas * sigmas / 2)});
+    x.push_back(rounded(at_m, bins.decimals + 2));
+    y.push_back(rounded(peak * std::exp(-sigmas * sigmas / 2), 3));
   }
-  return points;
+  return line_layer("", "ink", 1, x, y);
 }
 
 bool can_show(const Normal& normal, const Bins& bins) {
@@ -131,11 +130,12 @@ bool has_errors(const ReportSeries& series) {
                      [](const MethodSeries& method) { return !method.localized_errors_m.empty(); });
 }
 
-double highest_percent(const ReportSeries& series, const Bins& bins) {
+using Histograms = std::vector<Histogram>;  // one a method
+
+double highest_percent(const Histograms& histograms, const Bins& bins) {
   double highest = 0;
-  for (const MethodSeries& method : series.methods) {
-    if (method.localized_errors_m.empty()) continue;
-    const Histogram histogram = histogram_of(method.localized_errors_m, bins);
+  for (const Histogram& histogram : histograms) {
+    if (histogram.total == 0) continue;
     for (int bin = 0; bin < bins.count(); ++bin) {
       highest = std::max(highest, histogram.share_percent(bin));
     }
@@ -143,69 +143,55 @@ double highest_percent(const ReportSeries& series, const Bins& bins) {
   return highest;
 }
 
-std::vector<HoverStrip> bin_strips(const ReportSeries& series, const Bins& bins) {
-  std::vector<HoverStrip> strips;
-  for (int bin = 0; bin < bins.count(); ++bin) {
-    std::string text = plot::number(bins.from_m(bin), bins.decimals) + " to " +
-                       plot::number(bins.from_m(bin + 1), bins.decimals) + " m";
-    for (const MethodSeries& method : series.methods) {
-      const Histogram histogram = histogram_of(method.localized_errors_m, bins);
-      text += "\n" + method.name + ": " +
-              counted(histogram.counts[static_cast<std::size_t>(bin)], "frame");
-    }
-    strips.push_back({bins.from_m(bin), bins.from_m(bin + 1), text});
-  }
-  return strips;
-}
-
-// "2 of scale-only": how many errors of each method one end of the plot cut off.
+// How many errors one end of the plot cuts off, and of each method: "2 of scale-only".
 struct CutOff {
   std::size_t total = 0;
   std::vector<std::string> parts;
 };
 
-CutOff cut_off(const ReportSeries& series, const Bins& bins, std::size_t Histogram::*end) {
+CutOff cut_off(const ReportSeries& series, const Histograms& histograms,
+               std::size_t Histogram::*end) {
   CutOff cut;
-  for (const MethodSeries& method : series.methods) {
-    const std::size_t count = histogram_of(method.localized_errors_m, bins).*end;
+  for (std::size_t i = 0; i < histograms.size(); ++i) {
+    const std::size_t count = histograms[i].*end;
     cut.total += count;
-    if (count > 0) cut.parts.push_back(std::to_string(count) + " of " + method.name);
+    if (count > 0) cut.parts.push_back(std::to_string(count) + " of " + series.methods[i].name);
   }
   return cut;
 }
 
-std::string cut_off_text(const ReportSeries& series, const Bins& bins) {
-  const std::string limit = plot::number(bins.limit_m(), bins.decimals) + "\u00A0m";
-  const CutOff before = cut_off(series, bins, &Histogram::before);
-  const CutOff beyond = cut_off(series, bins, &Histogram::beyond);
-  if (before.total + beyond.total == 0) return " No error is left out.";
+std::string cut_off_text(const CutOff& before, const CutOff& beyond, const Bins& bins) {
+  const std::string limit = number(bins.limit_m(), bins.decimals) + "\u00A0m";
   std::vector<std::string> ends;
   if (before.total > 0) ends.push_back("below \u2212" + limit + " lie " + listed(before.parts));
   if (beyond.total > 0) ends.push_back("above " + limit + " lie " + listed(beyond.parts));
+  if (ends.empty()) return " No error is left out.";
   return " Not drawn: " + (ends.size() == 2 ? ends[0] + "; " + ends[1] : ends[0]) + ".";
 }
 
-void add_end_words(Chart& chart, const ReportSeries& series, const Bins& bins, double top) {
-  const std::size_t before = cut_off(series, bins, &Histogram::before).total;
-  const std::size_t beyond = cut_off(series, bins, &Histogram::beyond).total;
-  if (before > 0) {
-    chart.word({-bins.limit_m(), top}, 4, 14, "", "\u25C2 " + std::to_string(before) + " further");
+void add_end_words(Json& plot, const CutOff& before, const CutOff& beyond) {
+  const auto add = [&](const std::string& text, const Json& x, const Words& words) {
+    plot["layers"].push_back(
+        texts_layer(Json::array({text}), words, Json::array({x}), Json::array({plot["y"]["max"]})));
+  };
+  if (before.total > 0) {
+    add("\u25C2 " + std::to_string(before.total) + " further", plot["x"]["min"], {"left", 4, 14});
   }
-  if (beyond > 0) {
-    chart.word({bins.limit_m(), top}, -4, 14, "end", std::to_string(beyond) + " further \u25B8");
+  if (beyond.total > 0) {
+    add(std::to_string(beyond.total) + " further \u25B8", plot["x"]["max"], {"right", -4, 14});
   }
 }
 
 std::string histogram_caption(const ReportSeries& series, const Bins& bins, const Normal& normal) {
-  const MethodSeries& chief = series.chief_method();
+  const MethodSeries& reference = series.reference_method();
   std::string text = "Share of the localized frames in each bin of " +
-                     plot::number(bins.width_m, bins.decimals) + "\u00A0m.";
+                     number(bins.width_m, bins.decimals) + "\u00A0m.";
   if (can_show(normal, bins)) {
     text += " The thin line is a normal distribution with the mean (" +
-            plot::signed_number(normal.mean_m, 3) + "\u00A0m) and standard deviation (" +
-            metres(normal.sigma_m) + ") of the errors of " + chief.name + " drawn here.";
+            signed_number(normal.mean_m, 3) + "\u00A0m) and standard deviation (" +
+            metres(normal.sigma_m) + ") of the errors of " + reference.name + " drawn here.";
   }
-  return text + cut_off_text(series, bins);
+  return text;
 }
 
 std::vector<double> ascending_magnitudes(const MethodSeries& method) {
@@ -215,16 +201,37 @@ std::vector<double> ascending_magnitudes(const MethodSeries& method) {
   return magnitudes;
 }
 
-// Steps up by one frame's share at each error.
-std::vector<Point> cumulative_points(const std::vector<double>& magnitudes, double limit_m) {
-  std::vector<Point> points = {{0, 0}};
-  const double each = 100 / static_cast<double>(magnitudes.size());
-  for (std::size_t i = 0; i < magnitudes.size() && magnitudes[i] <= limit_m; ++i) {
-    points.push_back({magnitudes[i], each * static_cast<double>(i)});
-    points.push_back({magnitudes[i], each * static_cast<double>(i + 1)});
+Json steps_layer(const MethodSeries& method, bool is_reference, const Json& x, const Json& y) {
+  Json layer = line_layer(method.name, method.colour, is_reference ? 1.8 : 1.1, x, y);
+  layer["steps"] = true;
+  layer["total"] = method.localized_errors_m.size();
+  return layer;
+}
+
+// The method's shares of magnitudes that are no larger than some, which are those of all methods.
+Json shares_layer(const MethodSeries& method, bool is_reference, double limit_m) {
+  const std::vector<double> magnitudes = ascending_magnitudes(method);
+  Json x = Json::array();
+  Json y = Json::array();
+  for (int i = 0; i <= kCumulativePoints; ++i) {
+    const double at_m = limit_m * i / kCumulativePoints;
+    const auto end = std::upper_bound(magnitudes.begin(), magnitudes.end(), at_m);
+    x.push_back(rounded(at_m, 5));
+    y.push_back(rounded(100 * static_cast<double>(end - magnitudes.begin()) /
+                            static_cast<double>(magnitudes.size()),
+                        2));
   }
-  points.push_back({limit_m, points.back().y});
-  return points;
+  return steps_layer(method, is_reference, x, y);
+}
+
+Json level_layer(double percent, double limit_m) {
+  Json level = line_layer("", "muted", 1, {0, rounded(limit_m, 5)}, {percent, percent});
+  level["dash"] = {2, 4};
+  return level;
+}
+
+Json share_axis(double top_percent) {
+  return axis("localized frames (%)", 0, rounded_up(top_percent, 5), 1);
 }
 
 std::string cumulative_caption(const ReportSeries& series) {
@@ -235,7 +242,7 @@ std::string cumulative_caption(const ReportSeries& series) {
   for (const MethodSeries* method : series.back_to_front()) {
     if (method->localized_errors_m.empty()) continue;
     const Summary& summary = method->evaluation->summary;
-    if (method == &series.chief_method()) {
+    if (method == &series.reference_method()) {
       text += " With " + method->name + " half of the frames are within " +
               metres(summary.p50_error_m) + ", 95\u00A0% within " + metres(summary.p95_error_m) +
               ".";
@@ -255,47 +262,61 @@ std::string cumulative_caption(const ReportSeries& series) {
 Figure histogram_figure(const ReportSeries& series) {
   Figure figure;
   figure.heading = "Errors by size";
-  figure.legend = method_legend(series);
   if (!has_errors(series)) return figure;
   const Bins bins = common_bins(series);
-  const MethodSeries& chief = series.chief_method();
-  const Normal normal = normal_of(chief.localized_errors_m, bins);
-  figure.caption = histogram_caption(series, bins, normal);
-  double top_percent = highest_percent(series, bins);
+  Histograms histograms;
+  for (const MethodSeries& method : series.methods) {
+    histograms.push_back(histogram_of(method.localized_errors_m, bins));
+  }
+  const MethodSeries& reference = series.reference_method();
+  const Normal normal = normal_of(reference.localized_errors_m, bins);
+  const CutOff before = cut_off(series, histograms, &Histogram::before);
+  const CutOff beyond = cut_off(series, histograms, &Histogram::beyond);
+  figure.caption = histogram_caption(series, bins, normal) + cut_off_text(before, beyond, bins);
+  double top_percent = highest_percent(histograms, bins);
   if (can_show(normal, bins)) top_percent = std::max(top_percent, peak_percent(normal, bins));
-  const Axis y = Axis::rounded("localized frames (%)", 0, top_percent, 5);
-  Chart chart = Chart::of_height(Axis::spanning("error (m)", -bins.limit_m(), bins.limit_m(), 6), y,
-                                 kPlotHeightPx, "Histogram of the signed errors");
+  Json plot = {{"description", "Histogram of the signed errors"},
+               {"height_px", kPlotHeightPx},
+               {"bin", bins.width_m},
+               {"x", axis("error (m)", -bins.limit_m(), bins.limit_m(), bins.decimals)},
+               {"y", share_axis(top_percent)},
+               {"layers", Json::array()}};
   for (const MethodSeries* method : series.back_to_front()) {
     if (method->localized_errors_m.empty()) continue;
-    const std::vector<Point> steps = outline(histogram_of(method->localized_errors_m, bins), bins);
-    if (method == &chief) chart.area(steps, method->css_class + " area");
-    chart.line(steps, method->css_class + (method == &chief ? " line chief" : " line"));
+    const Json x = edges_m(bins);
+    const Json y = outline_percent(histograms[method->number], bins);
+    if (method == &reference) {
+      Json area = area_layer("", method->colour, x, y);
+      area["opacity"] = 0.16;
+      area["steps"] = true;
+      plot["layers"].push_back(area);
+    }
+    plot["layers"].push_back(steps_layer(*method, method == &reference, x, y));
   }
-  if (can_show(normal, bins)) chart.line(density_points(normal, bins), "density");
-  add_end_words(chart, series, bins, y.to());
-  chart.hover(bin_strips(series, bins));
-  figure.drawing = chart.svg();
+  if (can_show(normal, bins)) plot["layers"].push_back(density_layer(normal, bins));
+  add_end_words(plot, before, beyond);
+  figure.plots.push_back(plot);
   return figure;
 }
 
 Figure cumulative_figure(const ReportSeries& series) {
   Figure figure;
   figure.heading = "Frames within an error";
-  figure.legend = method_legend(series);
   if (!has_errors(series)) return figure;
   figure.caption = cumulative_caption(series);
-  const Axis x = Axis::rounded("absolute error (m)", 0, series.error_limit_m);
-  Chart chart = Chart::of_height(x, Axis::spanning("localized frames (%)", 0, 100, 5),
-                                 kPlotHeightPx, "Cumulative distribution of the absolute error");
-  chart.level(50, "level", "50\u00A0%");
-  chart.level(95, "level", "95\u00A0%");
+  const double limit_m = rounded_up(series.error_limit_m, 5);
+  Json plot = {{"description", "Cumulative distribution of the absolute error"},
+               {"height_px", kPlotHeightPx},
+               {"x", axis("absolute error (m)", 0, limit_m, 3)},
+               {"y", share_axis(100)},
+               {"layers", {level_layer(50, limit_m), level_layer(95, limit_m)}}};
   for (const MethodSeries* method : series.back_to_front()) {
     if (method->localized_errors_m.empty()) continue;
-    chart.line(cumulative_points(ascending_magnitudes(*method), x.to()),
-               method->css_class + (method == &series.chief_method() ? " line chief" : " line"));
+    plot["layers"].push_back(shares_layer(*method, method == &series.reference_method(), limit_m));
   }
-  figure.drawing = chart.svg();
+  plot["layers"].push_back(texts_layer({"50\u00A0%", "95\u00A0%"}, {"right", -4, 14},
+                                       {rounded(limit_m, 5), rounded(limit_m, 5)}, {50, 95}));
+  figure.plots.push_back(plot);
   return figure;
 }
 

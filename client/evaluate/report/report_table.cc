@@ -2,92 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <string>
 
-#include "client/evaluate/report/plot/text.h"
+#include "client/evaluate/report/report_numbers.h"
 
 namespace milepost {
 namespace {
 
-using plot::escaped;
-using plot::number;
-
 constexpr double kWithin2SigmaOfNormal = 0.9545;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Column {
   const char* heading;
   const char* unit;
-  std::string (*text)(const Summary&);
-  // The smaller, the better; NaN takes no part.
-  double (*badness)(const Summary&);
+  int decimals;
+  std::function<double(const Summary&)> value;
+  // The smaller, the better; NaN takes no part. None: the value itself.
+  std::function<double(const Summary&)> badness = nullptr;
+
+  double badness_of(const Summary& summary) const {
+    return badness ? badness(summary) : value(summary);
+  }
 };
+
+using Columns = std::vector<Column>;
+using S = Summary;
 
 double localized_share(const Summary& summary) {
   return summary.frames > 0
              ? static_cast<double>(summary.localized_frames) / static_cast<double>(summary.frames)
-             : std::numeric_limits<double>::quiet_NaN();
-}
-
-std::string localized_text(const Summary& summary) {
-  return std::to_string(summary.localized_frames) + "/" + std::to_string(summary.frames);
+             : kNaN;
 }
 
 double within_share(const Summary& summary) {
-  return summary.localized_frames > 0 ? summary.within_2_sigma
-                                      : std::numeric_limits<double>::quiet_NaN();
+  return summary.localized_frames > 0 ? summary.within_2_sigma : kNaN;
 }
 
 double off_normal(double share) { return std::abs(share - kWithin2SigmaOfNormal); }
 
-using S = Summary;
-using Columns = std::vector<Column>;
-
-const Columns& along_columns() {
-  static const Columns all = {
-      {"mean", "m", [](const S& s) { return number(s.mean_error_m, 3); },
-       [](const S& s) { return s.mean_error_m; }},
-      {"std", "m", [](const S& s) { return number(s.std_error_m, 3); },
-       [](const S& s) { return s.std_error_m; }},
-      {"max", "m", [](const S& s) { return number(s.max_error_m, 3); },
-       [](const S& s) { return s.max_error_m; }},
-      {"p50", "m", [](const S& s) { return number(s.p50_error_m, 3); },
-       [](const S& s) { return s.p50_error_m; }},
-      {"p95", "m", [](const S& s) { return number(s.p95_error_m, 3); },
-       [](const S& s) { return s.p95_error_m; }},
-      {"localized", "", localized_text, [](const S& s) { return -localized_share(s); }},
-      {"within 2\u03C3", "%", [](const S& s) { return number(100 * within_share(s), 1); },
-       [](const S& s) { return off_normal(within_share(s)); }},
-      {"map", "kB/m", [](const S& s) { return number(s.map_kb_per_m, 2); },
-       [](const S& s) { return s.map_kb_per_m; }},
-      {"latency p50", "ms", [](const S& s) { return number(s.latency_ms_p50, 1); },
-       [](const S& s) { return s.latency_ms_p50; }},
-      {"latency p99", "ms", [](const S& s) { return number(s.latency_ms_p99, 1); },
-       [](const S& s) { return s.latency_ms_p99; }},
-  };
-  return all;
+Columns along_columns() {
+  return {{"mean", "m", 3, &S::mean_error_m},
+          {"std", "m", 3, &S::std_error_m},
+          {"max", "m", 3, &S::max_error_m},
+          {"p50", "m", 3, &S::p50_error_m},
+          {"p95", "m", 3, &S::p95_error_m},
+          {"localized", "", 0, [](const S& s) { return s.localized_frames; },
+           [](const S& s) { return -localized_share(s); }},
+          {"frames", "", 0, [](const S& s) { return s.frames; }, [](const S&) { return kNaN; }},
+          {"within 2\u03C3", "%", 1, [](const S& s) { return 100 * within_share(s); },
+           [](const S& s) { return off_normal(within_share(s)); }},
+          {"map", "kB/m", 2, &S::map_kb_per_m},
+          {"latency p50", "ms", 1, &S::latency_ms_p50},
+          {"latency p99", "ms", 1, &S::latency_ms_p99}};
 }
 
-const Columns& pose_columns() {
-  static const Columns all = {
-      {"lateral mean", "m", [](const S& s) { return number(s.lateral_error_m.mean, 3); },
-       [](const S& s) { return s.lateral_error_m.mean; }},
-      {"lateral p95", "m", [](const S& s) { return number(s.lateral_error_m.p95, 3); },
-       [](const S& s) { return s.lateral_error_m.p95; }},
-      {"lateral max", "m", [](const S& s) { return number(s.lateral_error_m.max, 3); },
-       [](const S& s) { return s.lateral_error_m.max; }},
-      {"lateral within 2\u03C3", "%",
-       [](const S& s) { return number(100 * s.lateral_within_2_sigma, 1); },
+Columns pose_columns() {
+  return {
+      {"lateral mean", "m", 3, [](const S& s) { return s.lateral_error_m.mean; }},
+      {"lateral p95", "m", 3, [](const S& s) { return s.lateral_error_m.p95; }},
+      {"lateral max", "m", 3, [](const S& s) { return s.lateral_error_m.max; }},
+      {"lateral within 2\u03C3", "%", 1, [](const S& s) { return 100 * s.lateral_within_2_sigma; },
        [](const S& s) { return off_normal(s.lateral_within_2_sigma); }},
-      {"heading mean", "\u00B0", [](const S& s) { return number(s.heading_error_deg.mean, 2); },
-       [](const S& s) { return s.heading_error_deg.mean; }},
-      {"heading p95", "\u00B0", [](const S& s) { return number(s.heading_error_deg.p95, 2); },
-       [](const S& s) { return s.heading_error_deg.p95; }},
-      {"heading max", "\u00B0", [](const S& s) { return number(s.heading_error_deg.max, 2); },
-       [](const S& s) { return s.heading_error_deg.max; }},
-  };
-  return all;
+      {"heading mean", "\u00B0", 2, [](const S& s) { return s.heading_error_deg.mean; }},
+      {"heading p95", "\u00B0", 2, [](const S& s) { return s.heading_error_deg.p95; }},
+      {"heading max", "\u00B0", 2, [](const S& s) { return s.heading_error_deg.max; }}};
 }
 
 // What the best cell of the column says. Methods that say the same share the mark, since a
@@ -96,59 +78,50 @@ std::optional<std::string> best_text(const Column& column,
                                      const std::vector<MethodEvaluation>& methods) {
   const Summary* best = nullptr;
   for (const MethodEvaluation& method : methods) {
-    const double badness = column.badness(method.summary);
-    if (std::isfinite(badness) && (best == nullptr || badness < column.badness(*best))) {
+    const double badness = column.badness_of(method.summary);
+    if (std::isfinite(badness) && (best == nullptr || badness < column.badness_of(*best))) {
       best = &method.summary;
     }
   }
   if (best == nullptr) return std::nullopt;
-  const std::string text = column.text(*best);
-  const bool all_the_same = std::all_of(
-      methods.begin(), methods.end(),
-      [&](const MethodEvaluation& method) { return column.text(method.summary) == text; });
+  const auto text_of = [&](const Summary& s) { return number(column.value(s), column.decimals); };
+  const std::string text = text_of(*best);
+  const bool all_the_same =
+      std::all_of(methods.begin(), methods.end(),
+                  [&](const MethodEvaluation& method) { return text_of(method.summary) == text; });
   return all_the_same ? std::nullopt : std::optional(text);
 }
 
-std::string head(const Columns& columns) {
-  std::string html = "<thead><tr><th scope=\"col\">method</th>";
+Json table(const Columns& columns, const std::vector<MethodEvaluation>& methods) {
+  Json json = {{"columns", Json::array({words_column("method")})}, {"rows", Json::array()}};
+  for (const MethodEvaluation& method : methods) {
+    json["rows"].push_back(
+        {{"cells", Json::array({method.summary.method})}, {"best", Json::array()}});
+  }
   for (const Column& column : columns) {
-    html += std::string("<th scope=\"col\">") + column.heading + " <small>" + column.unit +
-            "</small></th>";
+    json["columns"].push_back(table_column(column.heading, column.unit, column.decimals));
+    const std::optional<std::string> best = best_text(column, methods);
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      const double value = column.value(methods[i].summary);
+      Json& row = json["rows"][i];
+      if (best == number(value, column.decimals)) row["best"].push_back(row["cells"].size());
+      row["cells"].push_back(rounded(value, column.decimals));
+    }
   }
-  return html + "</tr></thead>\n";
-}
-
-std::string row(const Summary& summary, const Columns& columns,
-                const std::vector<std::optional<std::string>>& best) {
-  std::string html = "<tr><th scope=\"row\">" + escaped(summary.method) + "</th>";
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Column& column = columns[i];
-    const std::string text = column.text(summary);
-    html += std::string("<td data-label=\"") + column.heading + "\" data-unit=\"" + column.unit +
-            "\">" + (best[i] == text ? "<strong>" + text + "</strong>" : text) + "</td>";
-  }
-  return html + "</tr>\n";
-}
-
-std::string table(const Columns& columns, const std::vector<MethodEvaluation>& methods) {
-  std::vector<std::optional<std::string>> best;
-  for (const Column& column : columns) best.push_back(best_text(column, methods));
-  std::string html = "<table>\n" + head(columns) + "<tbody>\n";
-  for (const MethodEvaluation& method : methods) html += row(method.summary, columns, best);
-  return html + "</tbody>\n</table>\n";
+  return json;
 }
 
 }  // namespace
 
-std::string summary_table(const std::vector<MethodEvaluation>& methods) {
+Json summary_table(const std::vector<MethodEvaluation>& methods) {
   return table(along_columns(), methods);
 }
 
-std::string pose_table(const std::vector<MethodEvaluation>& methods) {
+Json pose_table(const std::vector<MethodEvaluation>& methods) {
   std::vector<MethodEvaluation> knowing;
   std::copy_if(methods.begin(), methods.end(), std::back_inserter(knowing),
                [](const MethodEvaluation& method) { return method.summary.knows_lateral(); });
-  return knowing.empty() ? "" : table(pose_columns(), knowing);
+  return knowing.empty() ? Json() : table(pose_columns(), knowing);
 }
 
 }  // namespace milepost

@@ -2,7 +2,7 @@
 // is said to have found is made up.
 #pragma once
 
-#include "client/evaluate/report/find_report.h"
+#include "client/evaluate/report/find_report_data.h"
 
 namespace milepost::testing {
 

@@ -91,7 +91,7 @@ def timing(stages, seconds):
 
 
 def run(options):
-    from .laboratory import Laboratory  # numpy and matplotlib are slow to load: not for a wrong call
+    from .laboratory import Laboratory  # numpy and scipy are slow to load: not for a wrong call
     from .stages import Cache
 
     began = time.monotonic()

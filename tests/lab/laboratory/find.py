@@ -78,7 +78,7 @@ def report_page(options, words, runs):
     return report.page(
         f"{options.drive.name}, {len(runs)} runs", f"{result_of(runs).capitalize()}.",
         [("Map", pathlib.Path(options.map).name), ("Start", start), ("Options of find", " ".join(words) or "none")],
-        [report.figure("Error over time", error_over_time(runs), CAPTION), report.table(table_of(runs))])
+        [report.figure("Error over time", error_over_time(runs), CAPTION, stacked=True), report.table(table_of(runs))])
 
 
 def main():

@@ -124,8 +124,6 @@ class Laboratory:
 
     def report(self, by_pair):
         shown = self.shown()
-        methods = tables.methods_of(shown)
-        estimators = [method for method in (*paper.ESTIMATORS, paper.OURS) if method in methods]
         body = [
             report.table(self.tables[0]),
             report.figure("Mean error beside the paper's", figures.means_beside_paper(self.fixes),
@@ -136,13 +134,12 @@ class Laboratory:
             report.figure("Figure 5: error along the route", figures.error_along_route(shown),
                           f"A panel a pair. Lines: mean of the absolute error over {figures.RUNNING_WINDOW_M:.0f} m of "
                           "road; dots: single frames. The axis is logarithmic, and what is below "
-                          f"{1000 * figures.LEAST_SHOWN_M:.0f} mm is drawn there.", methods),
+                          f"{1000 * figures.LEAST_SHOWN_M:.0f} mm is drawn there."),
             report.figure("Errors of all pairs together", figures.error_distribution(shown),
-                          "Share of localized frames with no larger error, on a logarithmic axis.", methods),
+                          "Share of localized frames with no larger error, on a logarithmic axis."),
             report.table(self.tables[1]),
             report.figure("Figure 6: error by road type", figures.error_by_road_type(shown),
-                          "Share of localized frames with no larger error. Triangles at the foot: the means.",
-                          estimators),
+                          "Share of localized frames with no larger error. Triangles at the foot: the means."),
             *self.regression_figures(),
             *self.estimate_figures(),
             report.table(self.tables[2]),
@@ -150,8 +147,7 @@ class Laboratory:
         if self.studies:
             body.append(report.part("Studies"))
             for study in self.studies:
-                body += [report.figure(study.title, study.figure, study.caption, list(study.points)),
-                         f"<details><summary>Table</summary>{study.table.as_html()}</details>\n"]
+                body += [report.figure(study.title, study.figure, study.caption), report.folded(study.table)]
         body += [report.part("Pair by pair"), report.table(by_pair)]
         return report.page(self.name, self.lead(), self.facts(), body)
 

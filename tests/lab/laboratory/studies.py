@@ -51,7 +51,7 @@ class Outcome:
     title: str
     caption: str
     table: Table
-    figure: str
+    figure: list  # of plots
     points: dict
     more: Table | None = None  # goes into files only
 

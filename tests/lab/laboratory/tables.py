@@ -1,7 +1,6 @@
-"""The tables: each as aligned text, as CSV, as Markdown and as HTML, of the same cells."""
+"""The tables: each as aligned text, as CSV, as Markdown and as data of a page, of the same cells."""
 import csv
 import dataclasses
-import html
 import io
 import math
 import textwrap
@@ -85,27 +84,22 @@ class Table:
                                            for i, cell in enumerate(cells)) + " |")
         return "\n".join(lines) + "\n"
 
-    def as_html(self):
-        """A group is a heading of its own, then its rows without the group's word."""
-        shown = range(self.groups, len(self.columns))
-        head = "".join(f'<th scope="col">{html.escape(heading)} <small>{html.escape(unit)}</small></th>'
-                       for heading, unit, _ in self.columns[self.groups:])
-        body, last = [], ()
+    def as_data(self):
+        """For a page. A group is a row of its own, then its rows without the group's word."""
+        columns = self.columns[self.groups:]
+        rows, last = [], ()
         for row in self.rows:
             if self.group(row) != last:
                 last = self.group(row)
-                body.append(f'<tr class="group"><th scope="rowgroup" colspan="{len(shown)}">'
-                            f'{html.escape(", ".join(last))}</th></tr>')
-            body.append(f"<tr>{''.join(self.html_cell(row, index) for index in shown)}</tr>")
-        return f"<table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n" + "\n".join(body) + "\n</tbody>\n</table>\n"
+                rows.append({"group": ", ".join(last)})
+            best = [index for index in range(len(columns)) if self.is_best(row, self.groups + index)]
+            rows.append({"cells": [self.data(row, self.groups + index) for index in range(len(columns))], "best": best})
+        return {"columns": [dict(zip(("heading", "unit", "decimals"), column)) for column in columns], "rows": rows}
 
-    def html_cell(self, row, index):
-        heading, unit, decimals = self.columns[index]
-        text = html.escape(self.cell(row, index))
-        if decimals is None:
-            return f'<th scope="row">{text}</th>'
-        strong = f"<strong>{text}</strong>" if self.is_best(row, index) else text
-        return f'<td data-label="{html.escape(heading)}" data-unit="{html.escape(unit)}">{strong}</td>'
+    def data(self, row, index):
+        """A word, or the number that is shown; None where it is missing."""
+        text = self.cell(row, index)
+        return text if isinstance(row[index], str) else None if text == "–" else float(text)
 
 
 def of_method(fixes, method):

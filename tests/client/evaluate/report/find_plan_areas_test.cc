@@ -17,22 +17,22 @@ double height_share(const PlanArea& area) { return area.north.length() / area.ea
 // Of a run in which nothing is found, with the particles of a snapshot at places of the test's own.
 class CloseUp : public ::testing::Test {
  protected:
-  std::optional<PlanArea> with_particles_at(const plot::Point& place) const {
+  std::optional<PlanArea> with_particles_at(const PlanPoint& place) const {
     return with_particles_at(place, 0, place);
   }
 
   // `others` of 100 particles lie elsewhere.
-  std::optional<PlanArea> with_particles_at(const plot::Point& place, std::size_t others,
-                                            const plot::Point& elsewhere) const {
+  std::optional<PlanArea> with_particles_at(const PlanPoint& place, std::size_t others,
+                                            const PlanPoint& elsewhere) const {
     FindSnapshot snapshot{kFrame, {}};
     for (std::size_t k = 0; k < 100; ++k) {
-      const plot::Point& at = k < others ? elsewhere : place;
+      const PlanPoint& at = k < others ? elsewhere : place;
       snapshot.particles.push_back({{at.x, at.y}, 0});
     }
     return close_up_area(series_, snapshot);
   }
 
-  plot::Point found() const { return series_.found[kFrame]; }
+  PlanPoint found() const { return series_.found[kFrame]; }
 
   static constexpr std::size_t kFrame = 12;
   FoundRun run_{20, 20};
@@ -49,7 +49,7 @@ TEST(PlanAreas, TheWholeOneHoldsWallsAndPathInOneShape) {
     EXPECT_TRUE(area.contains({wall.begin_m.x(), wall.begin_m.y()}));
     EXPECT_TRUE(area.contains({wall.end_m.x(), wall.end_m.y()}));
   }
-  for (const plot::Point& point : series.recorded) EXPECT_TRUE(area.contains(point));
+  for (const PlanPoint& point : series.recorded) EXPECT_TRUE(area.contains(point));
   EXPECT_NEAR(height_share(area), 0.8, 1e-9);
 }
 
@@ -94,7 +94,7 @@ TEST_F(CloseUp, IsAboutTheDensestPlace) {
 }
 
 TEST_F(CloseUp, LeavesOutATenthOfTheParticlesAtMost) {
-  const plot::Point far = {found().x + 60, found().y};
+  const PlanPoint far = {found().x + 60, found().y};
   EXPECT_TRUE(with_particles_at(found(), 10, far));
   EXPECT_FALSE(with_particles_at(found(), 11, far));
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "client/evaluate/report/report.h"
+#include "client/evaluate/report/report_data.h"
 
 namespace milepost::testing {
 

@@ -1,16 +1,13 @@
-#include "client/evaluate/report/find_report.h"
+#include "client/evaluate/report/find_report_data.h"
 
 #include <cmath>
 
 #include "client/evaluate/report/find_report_figures.h"
-#include "client/evaluate/report/plot/text.h"
 #include "client/evaluate/report/report_numbers.h"
 #include "client/evaluate/report/report_plan.h"
 
 namespace milepost {
 namespace {
-
-using plot::number;
 
 constexpr std::size_t kMostSnapshots = 6;
 
@@ -48,42 +45,41 @@ Facts facts_of(const FindReportInput& input, const FindSummary& summary) {
   return facts;
 }
 
-std::string cell(const std::string& heading, const std::string& unit, const std::string& text) {
-  return "<td data-label=\"" + heading + "\" data-unit=\"" + unit + "\">" + text + "</td>";
+constexpr const char* kSummaryNote =
+    "Of the frames that count as found: tracking, or carried on by odometry. Position: distance "
+    "along "
+    "the ground from the recorded position. Heading: absolute angle to the recorded one. Within "
+    "2\u03C3: the share that lies inside twice the reported standard deviation; of honest ones "
+    "86.5\u00A0% of the positions, which have two directions to be off in, and 95.4\u00A0% of the "
+    "headings. Only this report looks at recorded positions: the vehicle was found by frames and "
+    "odometry alone.";
+
+Json row(const std::string& name, const FindErrorFigures& figures) {
+  return {{"cells",
+           {name, rounded(figures.mean, 2), rounded(figures.p50, 2), rounded(figures.p95, 2),
+            rounded(figures.max, 2), rounded(100 * figures.within_2_sigma, 1)}}};
 }
 
-std::string row(const std::string& name, const std::string& unit, const FindErrorFigures& figures) {
-  return "<tr><th scope=\"row\">" + name + " <small>" + unit + "</small></th>" +
-         cell("mean", unit, number(figures.mean, 2)) + cell("p50", unit, number(figures.p50, 2)) +
-         cell("p95", unit, number(figures.p95, 2)) + cell("max", unit, number(figures.max, 2)) +
-         cell("within 2\u03C3", "%", number(100 * figures.within_2_sigma, 1)) + "</tr>\n";
+Json summary_part(const FindSummary& summary) {
+  return {
+      {"part", "table"},
+      {"heading", "Errors while tracked"},
+      {"note", kSummaryNote},
+      {"columns",
+       {words_column("error"), table_column("mean", "", 2), table_column("p50", "", 2),
+        table_column("p95", "", 2), table_column("max", "", 2),
+        table_column("within 2\u03C3", "%", 1)}},
+      {"rows",
+       {row("position (m)", summary.position_m), row("heading (\u00B0)", summary.heading_deg)}}};
 }
 
-std::string summary_section(const FindSummary& summary) {
-  return "<section>\n<h2>Errors while tracked</h2>\n<table>\n<thead><tr><th "
-         "scope=\"col\">error</th>"
-         "<th scope=\"col\">mean</th><th scope=\"col\">p50</th><th scope=\"col\">p95</th>"
-         "<th scope=\"col\">max</th><th scope=\"col\">within 2\u03C3 <small>%</small></th></tr>"
-         "</thead>\n<tbody>\n" +
-         row("position", "m", summary.position_m) + row("heading", "\u00B0", summary.heading_deg) +
-         "</tbody>\n</table>\n<p class=\"note\">Of the frames that count as found: tracking, or "
-         "carried on by the wheels. Position: distance along the ground from the recorded "
-         "position. "
-         "Heading: absolute angle to the recorded one. Within 2\u03C3: the share that lies inside "
-         "twice the reported standard deviation; of honest ones 86.5\u00A0% of the positions, "
-         "which "
-         "have two directions to be off in, and 95.4\u00A0% of the headings. Only this report "
-         "looks "
-         "at recorded positions: the vehicle was found by frames and wheels "
-         "alone.</p>\n</section>\n";
-}
-
-std::string snapshots_section(const FoundSeries& series) {
-  const std::vector<Figure> figures = snapshot_figures(series);
-  std::string html =
-      "<section>\n<h2>The belief as it went</h2>\n" + plan_legend() + "<div class=\"pair\">\n";
-  for (const Figure& figure : figures) html += html_of(figure);
-  return html + "</div>\n</section>\n";
+Json snapshots_part(const FoundSeries& series) {
+  Json parts = Json::array();
+  for (const Figure& figure : snapshot_figures(series)) parts.push_back(json_of(figure));
+  return {{"part", "group"},
+          {"heading", "The belief as it went"},
+          {"keys", plan_keys()},
+          {"parts", parts}};
 }
 
 }  // namespace
@@ -105,13 +101,16 @@ FoundSeries found_series(const FindReportInput& input) {
   return series;
 }
 
-std::string find_report_html(const FindReportInput& input) {
+Json find_report_data(const FindReportInput& input) {
   const FoundSeries series = found_series(input);
-  return page(
-      {"find", title_of(*input.drive), lead(series.summary), facts_of(input, series.summary)},
-      plan_ground(series) + summary_section(series.summary) + snapshots_section(series) +
-          html_of(path_figure(series)) + html_of(position_error_figure(series)) +
-          html_of(heading_error_figure(series)) + html_of(belief_figure(series)));
+  Json page = json_of(PageHead{"find", title_of(*input.drive), lead(series.summary),
+                               facts_of(input, series.summary)});
+  add_frames(page, series);
+  add_ground(page, series);
+  page["parts"] = {summary_part(series.summary),          snapshots_part(series),
+                   json_of(path_figure(series)),          json_of(position_error_figure(series)),
+                   json_of(heading_error_figure(series)), json_of(belief_figure(series))};
+  return page;
 }
 
 }  // namespace milepost

@@ -1,4 +1,4 @@
-// The report of a found drive: one HTML file that needs nothing else.
+// The report of a found drive, as data (report_json.h).
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 #include "client/evaluate/find_drive.h"
 #include "client/evaluate/report/backdrop.h"
 #include "client/evaluate/report/find_recorder.h"
+#include "client/evaluate/report/report_json.h"
 
 namespace milepost {
 
@@ -21,9 +22,9 @@ struct FindReportInput {
   std::optional<Backdrop> backdrop;                 // none: the plans have a plain ground
 };
 
-// The whole document, UTF-8. The same input gives the same bytes. Of all that the project computes
-// about a found drive, only this looks at its recorded positions.
+// What report_page() makes a page of. The same input gives the same data. Of all that the project
+// computes about a found drive, only this looks at its recorded positions.
 // REQUIRES: no pointer is null; there is a frame.
-std::string find_report_html(const FindReportInput& input);
+Json find_report_data(const FindReportInput& input);
 
 }  // namespace milepost

@@ -1,10 +1,11 @@
-// The report of an evaluation: one HTML file that needs nothing else.
+// The report of an evaluation, as data (report_json.h).
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "client/evaluate/evaluation.h"
+#include "client/evaluate/report/report_json.h"
 #include "schema/drive/drive.h"
 
 namespace milepost {
@@ -19,7 +20,7 @@ struct ReportInput {
   std::vector<MethodEvaluation> methods;  // the same drive by one method or more
 };
 
-// The whole document, UTF-8.
-std::string report_html(const ReportInput& input);
+// What report_page() makes a page of. The same input gives the same data.
+Json report_data(const ReportInput& input);
 
 }  // namespace milepost

@@ -1,0 +1,265 @@
+// One cursor and one zoom for all plots over frames; a view of its own for each plan.
+
+const LEAST_DRAG_PX = 4;
+const NEAR_PX = 24;        // of a frame on a plan
+const SCROLLING_MS = 400;  // a wheel that scrolls the page does not begin to zoom
+let cursor = null;         // number of a frame
+let scrolled = -Infinity;
+
+// So that rounding cannot leave out a tick at an end.
+function widen(axis) {
+  const margin = axis.log ? 0 : 1e-9 * (axis.max - axis.min);
+  if (margin) Object.assign(axis, {min: axis.min - margin, max: axis.max + margin});
+}
+
+function plotElement(spec) {
+  widen(spec.x);
+  widen(spec.y);
+  const canvas = h('canvas', {role: 'img', 'aria-label': spec.description});
+  const box = h('div', {class: spec.plan ? 'plot plan' : 'plot', tabindex: 0}, h('div', {class: 'canvas'}, canvas));
+  box.firstChild.style.height = `${(spec.height_px || 200) + AROUND_PX + lanesPx(spec)}px`;
+  for (const name of ['cursor', 'here', 'chosen']) box.append(h('div', {class: name, hidden: 'hidden'}));
+  const plot = {spec, box, canvas, chart: null};
+  plots.push(plot);
+  const heading = spec.title ? [h('h3', {}, spec.title)] : [];
+  return h('div', {}, ...heading, box);
+}
+
+const range = ({chart}, which) => [chart.scales[which].min, chart.scales[which].max];
+
+function setRange(plot, which, [min, max]) {
+  Object.assign(plot.chart.options.scales[which], {min, max});
+}
+
+// A line through more points than its layer bears is left to the dots.
+function update(plot) {
+  const [from, to] = [plot.chart.options.scales.x.min, plot.chart.options.scales.x.max];
+  for (const each of plot.chart.data.datasets) {
+    if (!each.layer.most_points) continue;
+    each.hidden = each.data.filter(({x}) => x !== null && x >= from && x <= to).length > each.layer.most_points;
+  }
+  plot.chart.update('none');
+  showCursor(plot);
+}
+
+// Plots that zoom together.
+const together = (plot) => plot.spec.frames ? plots.filter((each) => each.spec.frames) : [plot];
+
+function zoomTo(plot, across, upwards) {
+  for (const each of together(plot)) {
+    setRange(each, 'x', across);
+    if (upwards) setRange(each, 'y', upwards);
+    update(each);
+  }
+}
+
+function reset(plot) {
+  for (const each of together(plot)) {
+    for (const which of ['x', 'y']) setRange(each, which, [each.spec[which].min, each.spec[which].max]);
+    update(each);
+  }
+}
+
+// About a share of the width, and of the height of a plan.
+function zoomBy(plot, factor, shareX = 0.5, shareY = 0.5) {
+  const about = ([from, to], share) => [from + (to - from) * share * (1 - factor), to - (to - from) * (1 - share) * (1 - factor)];
+  zoomTo(plot, about(range(plot, 'x'), shareX), plot.spec.plan && about(range(plot, 'y'), shareY));
+}
+
+function moveBy(plot, rightPx, downPx) {
+  const {width, height} = plot.chart.chartArea;
+  const moved = ([from, to], share) => [from + (to - from) * share, to + (to - from) * share];
+  zoomTo(plot, moved(range(plot, 'x'), -rightPx / width), moved(range(plot, 'y'), downPx / height));
+}
+
+// Where a frame lies in a plot, in pixels; null where it does not.
+function place({spec, chart: {scales: {x, y}, chartArea}}, frame) {
+  const at = column(spec.plan ? page.frames.east : page.frames.x)[frame];
+  const north = spec.plan ? column(page.frames.north)[frame] : null;
+  if (at === null || at === undefined || (spec.plan && north === null)) return null;
+  const pixel = [x.getPixelForValue(at), spec.plan ? y.getPixelForValue(north) : chartArea.top];
+  return inside(chartArea, ...pixel) ? pixel : null;
+}
+
+function nearestFrame(plot, x, y) {
+  let best = null, least = plot.spec.plan ? NEAR_PX : Infinity;
+  for (let frame = 0; frame < column(page.frames.x).length; ++frame) {
+    const at = place(plot, frame);
+    if (!at) continue;
+    const distance = plot.spec.plan ? Math.hypot(at[0] - x, at[1] - y) : Math.abs(at[0] - x);
+    if (distance < least) [best, least] = [frame, distance];
+  }
+  return best;
+}
+
+function showCursor(plot) {
+  if (!plot.spec.frames && !plot.spec.plan) return;
+  const mark = plot.box.querySelector(plot.spec.plan ? '.here' : '.cursor');
+  const at = cursor === null ? null : place(plot, cursor);
+  mark.hidden = !at;
+  if (!at) return;
+  Object.assign(mark.style, {left: `${at[0]}px`, top: `${at[1]}px`});
+  if (plot.spec.frames) mark.style.height = `${plot.chart.chartArea.height}px`;
+}
+
+function setCursor(frame) {
+  if (cursor === frame) return;
+  cursor = frame;
+  plots.forEach(showCursor);
+  const readout = document.getElementById('readout');
+  readout.hidden = frame === null;
+  if (frame !== null) readout.replaceChildren(...readoutOf(frame));
+}
+
+// At the foot of the window, or at its head where the foot would hide the plot.
+function dockReadout(clientY) {
+  const readout = document.getElementById('readout');
+  readout.classList.toggle('above', clientY > innerHeight - readout.offsetHeight - 60);
+}
+
+// What the methods, or the finder, said of a frame.
+function readoutOf(frame) {
+  const {label, x, decimals, unit, names, rows} = page.frames;
+  const value = (of) => {
+    const raw = column(of.column)[frame];
+    return h('td', {}, of.words ? of.words[raw] : number(raw, of.decimals, of.signed) + (raw === null || !of.unit ? '' : ` ${of.unit}`));
+  };
+  const heads = rows[0].values.map((of) => h('th', {scope: 'col'}, of.label));
+  return [h('p', {}, `${column(names)[frame]}, ${label} ${number(column(x)[frame], decimals)} ${unit}`),
+    h('table', {}, h('thead', {}, h('tr', {}, h('td'), ...heads)), h('tbody', {}, ...rows.map((row) =>
+      h('tr', {}, h('th', {scope: 'row'}, sample({kind: 'line', colour: row.colour}), row.name), ...row.values.map(value)))))];
+}
+
+function hover(plot, event) {
+  const {left, top} = plot.box.getBoundingClientRect();
+  setCursor(nearestFrame(plot, event.clientX - left, event.clientY - top));
+  dockReadout(event.clientY);
+}
+
+// A drag moves a plan, and chooses a stretch of other plots.
+function listenToPointer(plot) {
+  const {box, spec} = plot;
+  const chosen = box.querySelector('.chosen');
+  let start = null, last = null;
+  const offset = (event) => event.clientX - box.getBoundingClientRect().left;
+  const stretch = (event) => [Math.min(start.x, offset(event)), Math.max(start.x, offset(event))];
+  box.addEventListener('pointerdown', (event) => {
+    if (event.button !== 0 || event.target.closest('button')) return;
+    start = {x: offset(event)};
+    last = event;
+    box.setPointerCapture(event.pointerId);
+  });
+  box.addEventListener('pointermove', (event) => {
+    if (start && spec.plan) {
+      moveBy(plot, event.clientX - last.clientX, event.clientY - last.clientY);
+    } else if (start) {
+      const [from, to] = stretch(event), {chartArea: {top, height}} = plot.chart;
+      chosen.hidden = to - from < LEAST_DRAG_PX;
+      Object.assign(chosen.style, {left: `${from}px`, width: `${to - from}px`, top: `${top}px`, height: `${height}px`});
+    }
+    last = event;
+    if (spec.frames || spec.plan) hover(plot, event);
+  });
+  box.addEventListener('pointerup', (event) => {
+    const {scales: {x}, chartArea} = plot.chart;
+    if (start && !chosen.hidden) {
+      zoomTo(plot, stretch(event).map((pixel) => x.getValueForPixel(Math.min(Math.max(pixel, chartArea.left), chartArea.right))));
+    }
+    chosen.hidden = true;
+    start = null;
+  });
+  box.addEventListener('pointercancel', () => { chosen.hidden = true; start = null; });
+  box.addEventListener('pointerleave', () => setCursor(null));
+  box.addEventListener('dblclick', () => reset(plot));
+}
+
+function listenToWheel(plot) {
+  plot.box.addEventListener('wheel', (event) => {
+    if (event.timeStamp - scrolled < SCROLLING_MS) return;
+    event.preventDefault();
+    const {left, top} = plot.box.getBoundingClientRect();
+    const {chartArea} = plot.chart;
+    zoomBy(plot, 1.2 ** Math.sign(event.deltaY), (event.clientX - left - chartArea.left) / chartArea.width,
+      (chartArea.bottom - (event.clientY - top)) / chartArea.height);
+  }, {passive: false});
+}
+
+// Arrow keys move the cursor, or a plan; + and - zoom, Escape shows everything.
+function listenToKeys(plot) {
+  const step = (frames) => {
+    const last = column(page.frames.x).length - 1;
+    setCursor(Math.min(Math.max(cursor === null ? 0 : cursor + frames, 0), last));
+    dockReadout(plot.box.getBoundingClientRect().bottom);
+  };
+  const arrow = (right, down) => {
+    if (plot.spec.plan) return moveBy(plot, -40 * right, -40 * down);
+    return plot.spec.frames && right ? step(right) : false;
+  };
+  const keys = {
+    ArrowLeft: () => arrow(-1, 0), ArrowRight: () => arrow(1, 0), ArrowUp: () => arrow(0, -1),
+    ArrowDown: () => arrow(0, 1), '+': () => zoomBy(plot, 0.5), '-': () => zoomBy(plot, 2),
+    Escape: () => { reset(plot); setCursor(null); },
+  };
+  plot.box.addEventListener('keydown', (event) => {
+    if (!keys[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (keys[event.key]() !== false) event.preventDefault();
+  });
+}
+
+function addButtons(plot) {
+  const button = (text, title, act) => {
+    const node = h('button', {type: 'button', title, 'aria-label': title}, text);
+    node.addEventListener('click', act);
+    return node;
+  };
+  plot.box.append(h('div', {class: 'buttons'}, button('+', 'nearer', () => zoomBy(plot, 0.5)), button('−', 'farther', () => zoomBy(plot, 2)),
+    button('◻', 'all of it', () => reset(plot))));
+}
+
+// A metre of a plan is as long to the east as to the north.
+function fit({spec, box, chart}) {
+  const {width, height} = chart.chartArea;
+  const missing = width * (spec.y.max - spec.y.min) / (spec.x.max - spec.x.min) - height;
+  if (Math.abs(missing) < 0.5) return;
+  box.firstChild.style.height = `${box.firstChild.clientHeight + missing}px`;
+  chart.resize();
+}
+
+function drawAll() {
+  for (const plot of plots) {
+    const ranges = plot.chart && [range(plot, 'x'), range(plot, 'y')];
+    if (plot.chart) plot.chart.destroy();
+    plot.chart = new Chart(plot.canvas, configuration(plot.spec));
+    if (ranges) ['x', 'y'].forEach((which, k) => setRange(plot, which, ranges[k]));
+    if (plot.spec.plan) fit(plot);
+    update(plot);
+  }
+}
+
+function onPaper(isOn) {
+  document.documentElement.classList.toggle('paper', isOn);
+  drawAll();
+}
+
+function start() {
+  Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
+  document.getElementById('page').append(head(), ...page.parts.map(shown));
+  drawAll();
+  loadPicture();
+  for (const plot of plots) {
+    listenToPointer(plot);
+    listenToKeys(plot);
+    if (plot.spec.plan) {
+      listenToWheel(plot);
+      addButtons(plot);
+      new ResizeObserver(() => { plot.chart.resize(); fit(plot); showCursor(plot); }).observe(plot.box);
+    }
+  }
+  addEventListener('resize', () => plots.forEach(showCursor));
+  addEventListener('scroll', (event) => { scrolled = event.timeStamp; setCursor(null); });
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);
+  addEventListener('beforeprint', () => onPaper(true));
+  addEventListener('afterprint', () => onPaper(false));
+}
+
+start();

@@ -1,0 +1,104 @@
+#include "client/evaluate/report/report_data.h"
+
+#include <cmath>
+#include <utility>
+
+#include "client/evaluate/report/report_figures.h"
+#include "client/evaluate/report/report_numbers.h"
+#include "client/evaluate/report/report_table.h"
+
+namespace milepost {
+namespace {
+
+std::string lateral_lead(const Summary& summary) {
+  if (!summary.knows_lateral()) return "";
+  return " Its lateral offset is off by " + metres(summary.lateral_error_m.mean) +
+         " in the mean, 95\u00A0% by at most " + metres(summary.lateral_error_m.p95) + ".";
+}
+
+// What the best known method did, in a sentence or two.
+std::string lead(const ReportSeries& series) {
+  if (series.methods.empty()) return "No method was evaluated.";
+  const Summary& summary = series.reference_method().evaluation->summary;
+  if (summary.localized_frames == 0) {
+    return summary.method + " placed none of " + counted(summary.frames, "frame") + " on the map.";
+  }
+  return summary.method + " placed " + std::to_string(summary.localized_frames) + " of " +
+         counted(summary.frames, "frame") + " on the map. Half of them are within " +
+         metres(summary.p50_error_m) + " of where the camera really was, 95\u00A0% within " +
+         metres(summary.p95_error_m) + "; the worst is off by " + metres(summary.max_error_m) +
+         "." + lateral_lead(summary);
+}
+
+Facts facts_of(const ReportInput& input) {
+  Facts facts = {{"Map", input.map_name}, {"Tiles from", input.map_source}};
+  if (!input.segment.empty()) {
+    facts.emplace_back("Segment", input.segment + ", " + number(input.segment_length_m, 1) + " m");
+  }
+  if (input.drive != nullptr) {
+    for (auto& fact : facts_of(*input.drive)) facts.push_back(std::move(fact));
+  }
+  return facts;
+}
+
+PageHead head(const ReportInput& input, const ReportSeries& series) {
+  return {"evaluation", title_of(input.drive == nullptr ? Drive{} : *input.drive), lead(series),
+          facts_of(input)};
+}
+
+constexpr const char* kSummaryNote =
+    "Errors are absolute differences of the arc lengths of fix and truth, over the localized "
+    "frames: those with a position on the map. Within 2\u03C3: the share of them that lies inside "
+    "twice the reported standard deviation. Map: what the vehicle holds for the method on each "
+    "metre of road. p50 and p95: half and 95\u00A0% are no larger.";
+constexpr const char* kBestNote =
+    " The best of each column is underlined; within 2\u03C3 that is the nearest to 95.4\u00A0%.";
+constexpr const char* kPoseNote =
+    "Of the methods that know where in the lane the camera is and where it looks. Lateral: "
+    "absolute "
+    "difference of the lateral offsets of fix and truth from the segment's line. Heading: absolute "
+    "angle between the two. Within 2\u03C3: the share inside twice the reported standard deviation "
+    "of "
+    "the lateral offset.";
+
+Json table_part(const std::string& heading, const std::string& note, const Json& table) {
+  Json part = {{"part", "table"}, {"heading", heading}, {"note", note}};
+  part.update(table);
+  return part;
+}
+
+Json parts_of(const ReportInput& input, const ReportSeries& series) {
+  Json parts = Json::array();
+  parts.push_back(
+      table_part("Summary", std::string(kSummaryNote) + (input.methods.size() > 1 ? kBestNote : ""),
+                 summary_table(input.methods)));
+  const Json pose = pose_table(input.methods);
+  if (!pose.is_null()) {
+    parts.push_back(table_part("Lateral offset and heading", kPoseNote, pose));
+  }
+  parts.push_back(json_of(error_figure(series)));
+  if (series.knows_lateral()) parts.push_back(json_of(lateral_figure(series)));
+  parts.push_back(json_of(matches_figure(series)));
+  parts.push_back(
+      {{"part", "group"},
+       {"parts", {json_of(histogram_figure(series)), json_of(cumulative_figure(series))}}});
+  parts.push_back(json_of(map_figure(input, series)));
+  parts.push_back(json_of(latency_figure(series)));
+  return parts;
+}
+
+}  // namespace
+
+Json report_data(const ReportInput& input) {
+  const ReportSeries series = report_series(input);
+  Json page = json_of(head(input, series));
+  page["columns"] = Json::object();
+  page["parts"] = Json::array();
+  if (input.methods.empty()) return page;
+  add_frames(page, series);
+  add_places(page, input);
+  page["parts"] = parts_of(input, series);
+  return page;
+}
+
+}  // namespace milepost

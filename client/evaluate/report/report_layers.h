@@ -1,0 +1,33 @@
+// Layers of plots: how they look, and where they lie. An empty name is not in the legend; x and y
+// are arrays, or names of the page's columns. More can be set on what is returned.
+#pragma once
+
+#include <string>
+
+#include "client/evaluate/report/report_json.h"
+
+namespace milepost {
+
+Json line_layer(const std::string& name, const std::string& colour, double width_px, Json x = {},
+                Json y = {});
+Json dots_layer(const std::string& name, const std::string& colour, double radius_px, Json x = {},
+                Json y = {});
+// Circles with an edge.
+Json circles_layer(const std::string& name, const std::string& edge, const std::string& fill,
+                   double radius_px, double edge_px, Json x = {}, Json y = {});
+// What lies beneath a line, or between it and the same below zero (kind band).
+Json area_layer(const std::string& name, const std::string& colour, Json x, Json y);
+
+struct Words {
+  const char* align = "left";  // of the point: left, center, right
+  int right_px = 0;
+  int down_px = 0;
+};
+
+// A text beside each point.
+Json texts_layer(const Json& text, const Words& words, Json x, Json y);
+
+// An entry of a legend that tells how a status is marked.
+Json status_key(const std::string& status);
+
+}  // namespace milepost
