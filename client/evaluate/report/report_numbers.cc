@@ -1,11 +1,10 @@
 #include "client/evaluate/report/report_numbers.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "client/evaluate/statistics.h"
+#include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
@@ -17,10 +16,7 @@ constexpr double kRounding = 1e-9;  // of a step: a length that is one is not lo
 
 std::string number(double value, int decimals) {
   if (!std::isfinite(value)) return "\u2013";
-  std::array<char, 400> buffer{};  // the longest double has 309 digits before the point
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(value),
-                                 std::chars_format::fixed, decimals);
-  const std::string digits(buffer.data(), end.ptr);
+  const std::string digits = fixed(std::abs(value), decimals);
   const bool is_zero = digits.find_first_of("123456789") == std::string::npos;
   return value < 0 && !is_zero ? "\u2212" + digits : digits;
 }
