@@ -46,6 +46,12 @@ class PlanFilter {
 using MakePlanFilter = std::function<std::unique_ptr<PlanFilter>(
     const WallIndex& walls, const PlanBox& area, const FilterSettings& settings)>;
 
+template <class Filter>
+std::unique_ptr<PlanFilter> make_plan_filter(const WallIndex& walls, const PlanBox& area,
+                                             const FilterSettings& settings) {
+  return std::make_unique<Filter>(walls, area, settings);
+}
+
 struct FindMethod {
   bool with_beams = true;  // whether the filter uses them; they take half of a frame's time
   MakePlanFilter make_filter;

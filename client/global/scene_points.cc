@@ -53,22 +53,20 @@ struct SearchLine {
   }
 };
 
-// The rays of all sights, each as uncertain as 1 rad of its direction.
+// The point nearest to the rays of all sights, each as uncertain as 1 rad of its direction.
 template <class Sights>
-std::optional<MeetingRays> meeting(const Sights& sights) {
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
-  MeetingRays rays;
+std::optional<MeetingPoint> meeting_point(const Sights& sights) {
+  std::optional<MeetingPoint> met;
   for (int iteration = 0; iteration < 3; ++iteration) {
-    rays = {};
+    MeetingRays rays;
     for (const auto& sight : sights) {
-      const double range_m = iteration == 0 ? 10 : (point_m - sight.from_m).norm();
+      const double range_m = met ? (met->point_m - sight.from_m).norm() : 10;
       rays.add(sight.from_m, sight.direction, 1 / (range_m * range_m));
     }
-    const auto met_m = rays.point_m();
-    if (!met_m) return std::nullopt;
-    point_m = *met_m;
+    met = rays.point();
+    if (!met) break;
   }
-  return rays;
+  return met;
 }
 
 }  // namespace
@@ -175,9 +173,9 @@ std::vector<ScenePoint> ScenePointTracker::triangulated() const {
   std::vector<ScenePoint> points;
   for (const Track& track : tracks_) {
     if (track.sights.size() < 2) continue;
-    const auto rays = meeting(track.sights);
-    if (!rays) continue;
-    const Eigen::Vector3d point_m = *rays->point_m();
+    const auto met = meeting_point(track.sights);
+    if (!met) continue;
+    const Eigen::Vector3d& point_m = met->point_m;
     const Eigen::Vector3d camera_m = camera_from_first * point_m;
     if (camera_m.z() <= kNearestM / 2) continue;
     const bool agrees = std::ranges::all_of(track.sights, [&](const Sight& sight) {
@@ -187,7 +185,7 @@ std::vector<ScenePoint> ScenePointTracker::triangulated() const {
     });
     if (!agrees) continue;
     const Eigen::Vector3d ray = (point_m - first_from_camera_.translation()).normalized();
-    const double sigma_m = ray_sigma * std::sqrt(ray.dot(rays->information().ldlt().solve(ray)));
+    const double sigma_m = ray_sigma * std::sqrt(ray.dot(met->information.ldlt().solve(ray)));
     if (sigma_m > settings_.max_sigma_part * camera_m.norm()) continue;
     points.push_back({camera_m, sigma_m});
   }

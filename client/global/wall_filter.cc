@@ -103,11 +103,7 @@ void WallFilter::resample() {
 }
 
 FindMethod combined_method() {
-  return {.with_beams = true,
-          .make_filter = [](const WallIndex& walls, const PlanBox& area,
-                            const FilterSettings& settings) -> std::unique_ptr<PlanFilter> {
-            return std::make_unique<WallFilter>(walls, area, settings);
-          }};
+  return {.with_beams = true, .make_filter = make_plan_filter<WallFilter>};
 }
 
 }  // namespace milepost

@@ -23,9 +23,9 @@ std::optional<Eigen::Vector3d> nearest_to_rays(const PixelTrack& track,
         camera_from_enu(pose).transpose() * camera.ray_of(sight.pixel.x(), sight.pixel.y());
     rays.add(pose.enu_m - centre, ray.normalized());
   }
-  const auto met = rays.point_m();
+  const auto met = rays.point();
   if (!met) return std::nullopt;
-  return centre + *met;
+  return centre + met->point_m;
 }
 
 // Sums of a Gauss-Newton step.

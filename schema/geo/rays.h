@@ -3,9 +3,14 @@
 
 #include <optional>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 namespace milepost {
+
+struct MeetingPoint {
+  Eigen::Vector3d point_m;
+  Eigen::Matrix3d information;  // with weights as inverse variances: of its covariance the inverse
+};
 
 // Sums over rays for the point with the least weighted sum of squared distances from them.
 class MeetingRays {
@@ -18,17 +23,14 @@ class MeetingRays {
     sum_ += across * from_m;
   }
 
-  // Weights as inverse variances: the inverse of the point's covariance.
-  const Eigen::Matrix3d& information() const { return information_; }
-
   // Nothing where the rays are parallel.
-  std::optional<Eigen::Vector3d> point_m() const {
+  std::optional<MeetingPoint> point() const {
     constexpr double kParallel = 1e-12;
     const Eigen::LDLT<Eigen::Matrix3d> solver(information_);
     if (solver.info() != Eigen::Success || solver.vectorD().minCoeff() < kParallel) {
       return std::nullopt;
     }
-    return solver.solve(sum_);
+    return MeetingPoint{solver.solve(sum_), information_};
   }
 
  private:

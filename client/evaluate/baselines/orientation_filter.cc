@@ -73,11 +73,7 @@ class OrientationFilter : public PlanFilter {
 }  // namespace
 
 FindMethod orientations_method() {
-  return {.with_beams = false,
-          .make_filter = [](const WallIndex& walls, const PlanBox& area,
-                            const FilterSettings& settings) -> std::unique_ptr<PlanFilter> {
-            return std::make_unique<OrientationFilter>(walls, area, settings);
-          }};
+  return {.with_beams = false, .make_filter = make_plan_filter<OrientationFilter>};
 }
 
 }  // namespace milepost

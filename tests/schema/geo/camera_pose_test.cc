@@ -6,6 +6,7 @@
 
 #include "schema/geo/geodesy.h"
 #include "schema/geo/pinhole.h"
+#include "schema/geo/rays.h"
 
 namespace milepost {
 namespace {
@@ -66,6 +67,48 @@ TEST(Pinhole, RayAndPixelUndoEachOther) {
   EXPECT_EQ(ray.z(), 1);
   expect_pixel(kCamera.pixel_of<double>(7 * ray), 100, 400);
   EXPECT_NEAR(kCamera.focal_px(), std::sqrt(400.0 * 360), 1e-12);
+}
+
+TEST(Pinhole, ItsDerivativeIsThatOfItsPixels) {
+  const Eigen::Vector3d point(2, -1, 7);
+  constexpr double kStep = 1e-6;
+  const auto derivative = kCamera.pixel_by_point(point);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector2d change =
+        kCamera.pixel_of<double>(point + step) - kCamera.pixel_of<double>(point - step);
+    EXPECT_LT((derivative.col(axis) - change / (2 * kStep)).norm(), 1e-6) << axis;
+  }
+}
+
+TEST(CameraPose, IsFoundAgainFromItsTransform) {
+  const CameraPose pose = {{3, -4, 1.5}, -2.1, 0.3, -0.2};
+  const CameraPose again = pose_of(enu_from_camera(pose));
+  EXPECT_LT((again.enu_m - pose.enu_m).norm(), 1e-12);
+  EXPECT_NEAR(again.heading_rad, pose.heading_rad, 1e-12);
+  EXPECT_NEAR(again.pitch_rad, pose.pitch_rad, 1e-12);
+  EXPECT_NEAR(again.roll_rad, pose.roll_rad, 1e-12);
+  const Eigen::Vector3d point(10, 20, 3);
+  EXPECT_LT((enu_from_camera(pose) * seen_from(pose, point) - point).norm(), 1e-12);
+}
+
+TEST(MeetingRays, MeetWhereTheyCross) {
+  const Eigen::Vector3d crossing(1, 2, 10);
+  MeetingRays rays;
+  for (const double x : {-1.0, 0.0, 3.0}) {
+    const Eigen::Vector3d from(x, 0, 0);
+    rays.add(from, (crossing - from).normalized(), 1 + x * x);
+  }
+  const auto met = rays.point();
+  ASSERT_TRUE(met);
+  EXPECT_LT((met->point_m - crossing).norm(), 1e-9);
+}
+
+TEST(MeetingRays, DoNotMeetWhereTheyAreParallel) {
+  MeetingRays rays;
+  rays.add({0, 0, 0}, {0, 0, 1});
+  rays.add({1, 0, 0}, {0, 0, 1});
+  EXPECT_FALSE(rays.point());
 }
 
 }  // namespace
