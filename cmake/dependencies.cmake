@@ -1,8 +1,8 @@
-# Everything here is a Debian 12 package; deploy/packages.txt is the list.
+# All of these are Debian 12 packages, listed in deploy/packages.txt.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d flann)
-find_package(JPEG REQUIRED)  # the library that decodes frames in OpenCV, asked whether they are whole
+find_package(JPEG REQUIRED)  # OpenCV's decoder, called directly to check that frames are complete
 find_package(PNG REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
 find_package(Ceres 2.1 REQUIRED)  # only the mapper links it

@@ -1,6 +1,5 @@
-# The programs install themselves (milepost_program). Here: libmilepost, its public headers, and what
-# lets another project find it: a CMake package (milepost::milepost, shared; milepost::milepost-static)
-# and a pkg-config file.
+# Programs are installed by milepost_program. This file installs libmilepost, its public headers, a CMake
+# package (milepost::milepost, shared; milepost::milepost-static) and a pkg-config file.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -18,11 +17,11 @@ endforeach()
 configure_package_config_file(cmake/milepost-config.cmake.in milepost-config.cmake
   INSTALL_DESTINATION ${MILEPOST_PACKAGE_DIR})
 write_basic_package_version_file(milepost-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/milepost-config.cmake
+install(FILES ${PROJECT_BINARY_DIR}/milepost-config.cmake cmake/FindOpenCV.cmake
   ${PROJECT_BINARY_DIR}/milepost-config-version.cmake
   DESTINATION ${MILEPOST_PACKAGE_DIR})
 
-# The package may be moved as a whole: its prefix is told from where its file lies.
+# Relocatable: the prefix is computed relative to the location of the .pc file.
 file(RELATIVE_PATH MILEPOST_PC_TO_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(cmake/milepost.pc.in milepost.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/milepost.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

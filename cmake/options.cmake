@@ -1,7 +1,8 @@
-option(MILEPOST_TESTS "Build the tests" ON)
+find_package(GTest QUIET)
+option(MILEPOST_TESTS "Build the tests (default: if GoogleTest is installed)" ${GTest_FOUND})
 option(MILEPOST_BENCHMARKS "Build the benchmarks in tests/bench" ON)
 option(MILEPOST_WERROR "Treat warnings as errors" OFF)
-option(MILEPOST_FUZZ "Make the fuzz targets libFuzzer programs (clang)" OFF)
+option(MILEPOST_FUZZ "Build the fuzz targets as libFuzzer programs (clang)" OFF)
 set(MILEPOST_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined or thread")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -15,16 +16,17 @@ if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
 
-# What every target of the project is compiled with, and nothing that is installed.
+# Compile options of every target of the project; not exported to users of the library.
 add_library(milepost_compile_options INTERFACE)
 target_compile_options(milepost_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Wno-restrict  # false alarms of GCC 12 on std::string (GCC bug 105651)
+  -Wno-restrict           # false positives of GCC 12 on std::string (GCC bug 105651)
+  -Wno-subobject-linkage  # false positives in unity builds, where a .cc file is not the main file
   $<$<BOOL:${MILEPOST_WERROR}>:-Werror>)
 if(MILEPOST_SANITIZE)
   target_compile_options(milepost_compile_options INTERFACE
     -fsanitize=${MILEPOST_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
-    -Wno-maybe-uninitialized)  # false alarms of GCC 12 on std::regex with sanitizers (GCC bug 105562)
+    -Wno-maybe-uninitialized)  # false positives of GCC 12 on std::regex with sanitizers (GCC bug 105562)
   target_link_options(milepost_compile_options INTERFACE -fsanitize=${MILEPOST_SANITIZE})
 endif()
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes one table of the results of deploy/demo.
+"""Combines the results of deploy/demo in one table.
 
 usage: demo_table.py OUT QUERY...
 Reads OUT/results/QUERY/summary.json; prints the table; writes OUT/table.txt, table.csv, index.html.
@@ -10,16 +10,16 @@ import json
 import sys
 from pathlib import Path
 
-# Heading, key of summary.json, decimals, what it means.
+# Heading, key of summary.json, decimals, meaning.
 COLUMNS = [
     ("mean m", "mean_error_m", 3, "mean absolute error along the route"),
     ("std m", "std_error_m", 3, "standard deviation of the error"),
     ("max m", "max_error_m", 2, "largest absolute error"),
     ("p95 m", "p95_error_m", 3, "95 % of the errors are no larger"),
-    ("in 2 sigma", "within_2_sigma", 2, "share of errors within twice the sigma that was claimed"),
-    ("lateral m", "mean_lateral_error_m", 3, "mean absolute error to the side, of methods that know it"),
-    ("kB/m", "map_kb_per_m", 2, "what the vehicle holds, for each metre of road"),
-    ("ms p50", "latency_ms_p50", 1, "time for one frame, median"),
+    ("in 2 sigma", "within_2_sigma", 2, "share of errors within twice the estimated sigma"),
+    ("lateral m", "mean_lateral_error_m", 3, "mean absolute lateral error, of methods that estimate it"),
+    ("kB/m", "map_kb_per_m", 2, "map data that the vehicle needs per metre of road"),
+    ("ms p50", "latency_ms_p50", 1, "median time per frame"),
 ]
 COUNTS = ("localized_frames", "frames")
 
@@ -42,7 +42,7 @@ td.bars {{ text-align: left; min-width: 8rem; }}
 </style>
 <h1>milepost: demo</h1>
 <p>Each query drive was localized on the map of its map drive, through a tile server on loopback and
-a fresh cache. The bar is the mean error; a pair's name leads to its report.</p>
+a fresh cache. The bar is the mean error; the name of a pair links to its report.</p>
 <div class="scroll"><table>
 <thead><tr>{head}</tr></thead>
 {bodies}
@@ -53,7 +53,7 @@ a fresh cache. The bar is the mean error; a pair's name leads to its report.</p>
 
 
 def read_rows(out, queries):
-    """One dictionary for each pair and method: its summary with `pair` added."""
+    """One dictionary per pair and method: its summary with `pair` added."""
     rows = []
     for query in queries:
         path = out / "results" / query / "summary.json"
@@ -63,14 +63,14 @@ def read_rows(out, queries):
 
 
 def mean_rows(rows):
-    """One row for each method: the mean of each column over the pairs, and the sums of frames."""
+    """One row per method: the mean of each column over the pairs, and the sums of frames."""
     means = []
     for method in dict.fromkeys(row["method"] for row in rows):
         of_method = [row for row in rows if row["method"] == method]
         mean = {"pair": f"mean of {len(of_method)}", "method": method}
         for _, key, _, _ in COLUMNS:
             values = [row[key] for row in of_method]
-            # A pair without a figure may not drop out of the mean unseen.
+            # A pair without a value must not drop out of the mean silently.
             mean[key] = None if None in values else sum(values) / len(values)
         for key in COUNTS:
             mean[key] = sum(row[key] for row in of_method)
@@ -145,7 +145,7 @@ def main():
     write_csv(out / "table.csv", rows)
     (out / "index.html").write_text(html_page(groups, means), encoding="utf-8")
     print(table)
-    print(f"Reports: {out / 'index.html'}, of each pair {out / 'results'}/QUERY/report.html; "
+    print(f"Reports: {out / 'index.html'}, per pair {out / 'results'}/QUERY/report.html; "
           f"the table: {out / 'table.txt'}, {out / 'table.csv'}")
     return 0
 

@@ -1,4 +1,4 @@
-// milepost-server: serves a directory of maps until it is told to stop.
+// milepost-server: serves a directory of maps until it is stopped by a signal.
 #include <fcntl.h>
 #include <pthread.h>
 #include <spdlog/spdlog.h>
@@ -17,11 +17,10 @@ namespace {
 
 using namespace milepost;
 
-// How long the end of the log may take when the server stops.
+// Timeout for the last lines of the log when the server stops.
 constexpr std::chrono::milliseconds kLastLines{500};
 
-// What was started without an input or output gets an empty one, lest the next file or socket that
-// is opened gets its number.
+// Opens /dev/null for closed standard descriptors, so that no file or socket gets their numbers.
 void open_standard_descriptors() {
   while (true) {
     const int descriptor = ::open("/dev/null", O_RDWR);
@@ -31,13 +30,13 @@ void open_standard_descriptors() {
   }
 }
 
-// A log whose reader goes away, or whose file may not grow any more, does not end the server.
+// A log whose reader ends, or whose file reaches its size limit, does not end the server.
 void ignore_failures_of_the_log() {
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
 }
 
-// Blocks signals in this thread and those that it starts; wait_for_stop takes them.
+// Blocks signals in this thread and those that it starts; wait_for_stop receives them.
 sigset_t blocked(std::initializer_list<int> numbers) {
   sigset_t signals;
   sigemptyset(&signals);
@@ -82,7 +81,7 @@ int main(int argc, char** argv) {
   const auto options = server::parse_options(argc, argv);
   if (const int* exit_code = std::get_if<int>(&options)) return *exit_code;
   ignore_failures_of_the_log();
-  blocked({SIGHUP});  // from the first moment; a stop may end the opening of the maps
+  blocked({SIGHUP});  // from the start; SIGINT and SIGTERM may interrupt the opening of the maps
   const auto log = std::make_shared<server::LogWriter>(STDERR_FILENO);
   server::log_to(log);
   const Status served = serve(std::get<server::Options>(options));

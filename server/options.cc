@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iostream>
 #include <string_view>
 #include <thread>
 
@@ -13,16 +12,17 @@
 namespace milepost::server {
 namespace {
 
-constexpr int kWrongCall = 2;
 constexpr unsigned kMaxThreads = 256;
 
 constexpr const char* kDescription =
-    R"(Serves the maps of a directory over HTTP: clients in vehicles ask for the tiles of a segment by along range.
+    R"(Serves the maps of a directory over HTTP: clients in vehicles request the tiles of a segment
+by range of arc length.
 Every file of the directory that is a milepost map is served under its name without the extension.
-Left out, each with a line in the log that says why, are files that cannot be served (empty, cut off,
-damaged, unreadable, a name that cannot stand in a URL) and copies and parts of maps, by their names
-(town.map.bak, town.map~, town.old, town.part). Of files that give the same name the one that ends in
-.map is served, or none. The directory is read once: restart the server to serve new maps.)";
+Left out, each with the reason in the log, are files that cannot be served (empty, truncated,
+damaged, unreadable, a name that cannot be used in a URL) and copies and partial files of maps, by
+their names (town.map.bak, town.map~, town.old, town.part). Of files with the same map name the one
+that ends in .map is served, or none. The directory is read once: restart the server to serve new
+maps.)";
 
 constexpr const char* kExamples = R"~(Examples:
   milepost-server --maps /srv/milepost --listen 0.0.0.0:8080
@@ -38,15 +38,16 @@ constexpr const char* kExamples = R"~(Examples:
           listen = "0.0.0.0:8080"
           threads = 4
   curl http://127.0.0.1:8080/v1/maps
-      lists the maps; /openapi.yaml describes every address
+      lists the maps; /openapi.yaml describes every path
 
-It serves until SIGINT (Ctrl-C) or SIGTERM, then lets answers under way end and exits with 0.
+It serves until SIGINT (Ctrl-C) or SIGTERM, then finishes responses in progress and exits with 0.
 SIGHUP changes nothing: the maps are not read again. The log goes to standard error; lines that
-cannot be written, as nobody reads them or the disk is full, are dropped, and the log says how many.
+cannot be written, because nobody reads them or the disk is full, are dropped, and the log reports
+their number.
 Exit codes: 0 stopped on request, 1 the address or none of the maps can be used, 2 wrong call.
 A directory without any map is served as an empty catalog.)~";
 
-// Splits "ADDR:PORT" or "[ADDR]:PORT" at the last colon. False if the form is another.
+// Splits "ADDR:PORT" or "[ADDR]:PORT" at the last colon. False for any other form.
 bool split_listen(std::string_view text, std::string& address, std::uint16_t& port) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0) return false;
@@ -66,14 +67,6 @@ unsigned default_threads() {
   return std::clamp(std::thread::hardware_concurrency(), 1U, kMaxThreads);
 }
 
-// CLI11 says what is wrong in one line or more; this keeps to one, with the mend.
-int wrong_call(const std::string& what) {
-  std::string line = what;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  std::cerr << "milepost-server: " << line << "; milepost-server --help shows how\n";
-  return kWrongCall;
-}
-
 }  // namespace
 
 std::variant<Options, int> parse_options(int argc, const char* const* argv) {
@@ -83,9 +76,6 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
 
   CLI::App app(kDescription, "milepost-server");
   app.footer(kExamples);
-  app.set_version_flag("--version", "milepost-server " MILEPOST_VERSION);
-  app.set_config("--config", "", "File with the options below as keys")->type_name("FILE");
-  app.allow_config_extras(CLI::config_extras_mode::error);
   app.add_option("--maps", options.maps, "Directory of the map files")
       ->required()
       ->type_name("DIR");
@@ -94,19 +84,13 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
       ->type_name("ADDR:PORT");
   add_number(app, "--threads", options.threads, "N", "Threads that answer requests", 1,
              kMaxThreads);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ConfigError& error) {
-    return wrong_call(std::string("configuration file: ") + error.what() +
-                      "; the keys are maps, listen and threads");
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    return wrong_call(error.what());
-  }
-  if (!split_listen(listen, options.address, options.port)) {
-    return wrong_call("--listen " + listen +
-                      ": is no ADDR:PORT; write 127.0.0.1:8080 or [::1]:8080");
-  }
+  app.callback([&] {
+    if (!split_listen(listen, options.address, options.port)) {
+      throw CLI::ValidationError("--listen " + listen,
+                                 "not ADDR:PORT; write 127.0.0.1:8080 or [::1]:8080");
+    }
+  });
+  if (const auto code = parse_command_line(app, argc, argv)) return *code;
   return options;
 }
 

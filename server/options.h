@@ -15,8 +15,8 @@ struct Options {
   unsigned threads = 1;
 };
 
-// The options, or the exit code if there is nothing to do: 0 after --help and --version, 2 after a
-// wrong call. What is to be said has been said, on standard output or on standard error.
+// The options, or the exit code if the program ends: 0 after --help and --version, 2 after a wrong
+// call. Output has been printed on standard output or standard error.
 std::variant<Options, int> parse_options(int argc, const char* const* argv);
 
 }  // namespace milepost::server

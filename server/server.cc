@@ -32,7 +32,7 @@ struct Server::Impl {
     }
   }
 
-  // The threads end by themselves once the listener and all sessions are closed.
+  // The threads end once the listener and all sessions are closed.
   void join_threads() {
     for (std::thread& thread : threads) thread.join();
     threads.clear();
@@ -45,7 +45,7 @@ Result<std::unique_ptr<Server>> Server::start(std::shared_ptr<const Catalog> cat
   const net::ip::address address = net::ip::make_address(settings.address, error);
   if (error) {
     return Error{ErrorCode::invalid_input, "address " + settings.address,
-                 "is no IPv4 or IPv6 address", "write it as numbers, such as 127.0.0.1 or ::1"};
+                 "is not an IPv4 or IPv6 address", "write it as numbers, such as 127.0.0.1 or ::1"};
   }
   auto impl = std::make_unique<Impl>(settings);
   impl->listener = std::make_shared<Listener>(impl->context, std::move(catalog), settings.limits,
@@ -75,7 +75,7 @@ void Server::stop() {
   const auto sessions = impl_->sessions.stop();
   for (const auto& session : sessions) session->finish();
   if (!impl_->sessions.wait_none(impl_->settings.limits.drain)) {
-    spdlog::warn("{} connections are broken off", impl_->sessions.count());
+    spdlog::warn("{} connections are aborted", impl_->sessions.count());
     for (const auto& session : sessions) session->abort();
   }
   impl_->join_threads();

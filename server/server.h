@@ -1,4 +1,4 @@
-// The tile server: a catalog on an address.
+// The tile server: serves a catalog on an address.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace milepost::server {
 
 struct ServerSettings {
   std::string address = "127.0.0.1";  // IPv4 or IPv6, as numbers
-  std::uint16_t port = 0;             // 0: any that is free
-  unsigned threads = 1;               // >= 1; the catalog has at least so many readers
+  std::uint16_t port = 0;             // 0: any free port
+  unsigned threads = 1;               // >= 1; the catalog has at least as many readers
   ConnectionLimits limits;
 };
 
-// Answers on threads of its own from start() to stop().
+// Handles requests on its own threads from start() to stop().
 class Server {
  public:
   // Errors: invalid_input (address), io (it cannot be listened on).
@@ -28,11 +28,11 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // Where it listens, with the real port: "127.0.0.1:8080".
+  // The address it listens on, with the actual port: "127.0.0.1:8080".
   const std::string& address() const;
   std::uint16_t port() const;
 
-  // Accepts nothing more, gives answers under way the drain time to end, closes every connection
+  // Stops accepting, gives responses in progress the drain time to finish, closes every connection
   // and returns when all threads have ended. A second call does nothing.
   // Not safe to call from several threads at once.
   void stop();

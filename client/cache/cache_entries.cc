@@ -10,8 +10,8 @@ namespace milepost {
 namespace {
 
 constexpr std::int64_t kLastUse = std::int64_t{1} << 62;  // far from overflow
-// The total is counted anew after so many entries were removed on its word: often enough that a
-// wrong one costs little, seldom enough that counting does.
+// The stored total is recomputed after this many evictions that relied on it: often enough that a
+// wrong total does little harm, rarely enough that recomputing it is cheap.
 constexpr int kEvictionsPerCount = 64;
 
 constexpr char kKeyIs[] =
@@ -98,7 +98,7 @@ Result<std::uint64_t> CacheEntries::bytes() {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(*total, 0));
 }
 
-// Whether the total is that of the entries, and within the limit.
+// Whether the stored total is the sum over the entries and within the limit.
 Result<bool> CacheEntries::total_is_right() {
   const Result<bool> possible = total_is_possible();
   if (!possible.ok() || !*possible) return possible;
@@ -110,7 +110,7 @@ Result<bool> CacheEntries::total_is_right() {
   return *equal == 1;
 }
 
-// Whether the total is one number that a store can have left.
+// Whether the stored total is a single value that store() can have left.
 Result<bool> CacheEntries::total_is_possible() {
   const Result<std::int64_t> possible =
       database_.integer("SELECT count(*) = 1 AND min(bytes) BETWEEN 0 AND " +
@@ -119,10 +119,11 @@ Result<bool> CacheEntries::total_is_possible() {
   return *possible == 1;
 }
 
-// REQUIRES, as all below: a transaction. Entries of a size that cannot be go.
+// Recomputes the total; entries of an impossible size are deleted. REQUIRES, like all functions
+// below: an open transaction.
 Status CacheEntries::count_anew() {
   evicted_since_count_ = 0;
-  // First without a total, so that no trigger stumbles over it.
+  // The total is deleted first, so that no trigger fails on a wrong value.
   return database_.execute(
       "DELETE FROM total;"
       "DELETE FROM entries WHERE bytes < 0 OR bytes > " +
@@ -140,7 +141,9 @@ Status CacheEntries::evict() {
     const Result<std::uint64_t> total = bytes();
     if (!total.ok()) return total.error();
     if (*total <= static_cast<std::uint64_t>(limit_bytes_)) return ok_status();
-    if (!removing && evicted_since_count_ == 0) return damaged("its oldest entry stays");
+    if (!removing && evicted_since_count_ == 0) {
+      return damaged("its oldest entry cannot be removed");
+    }
     if (!removing || evicted_since_count_ >= kEvictionsPerCount) {
       Status counted = count_anew();
       if (!counted.ok()) return counted;
@@ -182,7 +185,7 @@ Status CacheEntries::replace(const CacheKey& key, ByteView content) {
 Status CacheEntries::mark_used_now(const CacheKey& key) {
   const Result<std::int64_t> use = next_use();
   if (!use.ok()) return use.error();
-  // The latest use needs no new number.
+  // An entry that is already the latest keeps its number.
   auto update = database_.prepare(std::string("UPDATE entries SET last_use = ?6 WHERE") + kKeyIs +
                                   " AND last_use < ?6 - 1");
   if (!update.ok()) return update.error();
@@ -191,7 +194,7 @@ Status CacheEntries::mark_used_now(const CacheKey& key) {
   return update->run();
 }
 
-// The number of the next use: greater than that of any entry.
+// The next use number: greater than that of any entry.
 Result<std::int64_t> CacheEntries::next_use() {
   Result<std::optional<std::int64_t>> latest = latest_use();
   if (latest.ok() && !latest->has_value()) {
@@ -200,11 +203,11 @@ Result<std::int64_t> CacheEntries::next_use() {
     latest = latest_use();
   }
   if (!latest.ok()) return latest.error();
-  if (!latest->has_value()) return damaged("the numbers of its uses cannot be");
+  if (!latest->has_value()) return damaged("its use numbers are invalid");
   return **latest + 1;
 }
 
-// The greatest number of a use, 0 without entries; nothing if it cannot be.
+// The greatest use number, 0 without entries; none if it is invalid.
 Result<std::optional<std::int64_t>> CacheEntries::latest_use() {
   auto select = database_.prepare(
       "SELECT last_use, last_use BETWEEN 0 AND ?1 FROM entries ORDER BY last_use DESC LIMIT 1");
@@ -217,7 +220,7 @@ Result<std::optional<std::int64_t>> CacheEntries::latest_use() {
   return std::optional<std::int64_t>(select->integer(0));
 }
 
-// From 1 on, in their order: a number that cannot be was damaged on the disk.
+// Renumbers the uses from 1, keeping their order; an invalid number is damage on the disk.
 Status CacheEntries::number_uses_anew() {
   return database_.execute(
       "UPDATE entries SET last_use = place FROM (SELECT id AS placed,"

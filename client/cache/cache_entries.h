@@ -1,4 +1,4 @@
-// The entries of a cache's file, as cache.sql lays them out, and which of them are forgotten.
+// The entries of a cache file (schema/cache.sql) and their least-recently-used eviction.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace milepost {
 
-// Names one entry. Everything under a build is immutable, so an entry never goes stale.
+// The key of an entry. Everything under a build is immutable, so an entry is never stale.
 struct CacheKey {
   std::string map;
   std::string build;
-  std::string segment;       // empty: of the whole map
+  std::string segment;       // empty: an entry of the whole map
   std::string layer;         // empty: a document
   std::uint32_t number = 0;  // the tile's index, or the cell's number
 
@@ -39,34 +39,33 @@ struct CachedDocument {
   std::string content;
 };
 
-// The entries of one open file. Nothing that the file says of itself is believed: contents are
-// compared with their digests, the bytes of all entries are counted anew now and then, and numbers
-// of uses that cannot be are replaced.
-// Errors of all: corrupt or invalid_input (the file breaks the rules of its own tables), io,
-// unavailable (locked by another process). Not safe to use from several threads at once.
+// The entries of one open file. Values stored in the file are verified before use: contents by
+// their digests, the total size by recomputing it from time to time; invalid use numbers are
+// replaced. Errors of all: corrupt or invalid_input (the file violates the constraints of its
+// tables), io, unavailable (locked by another process). Not safe to use from several threads at
+// once.
 class CacheEntries {
  public:
-  // An entry that was found.
   struct Found {
     Bytes content;
-    bool sound = false;  // the content has the digest and the size that were stored with it
+    bool sound = false;  // the content has the digest and size stored with it
   };
 
   CacheEntries(sqlite::Database database, std::uint64_t limit_bytes);
 
-  // Checks the bytes of all entries, and removes what is beyond the limit.
+  // Verifies the total size and evicts what exceeds the limit.
   Status check_total();
 
   Result<std::optional<Found>> find(const CacheKey& key);
-  // Counts as the latest use of the entry, if it is there.
+  // Marks the entry as the most recently used, if it exists.
   Status mark_used(const CacheKey& key);
-  // Adds or replaces an entry, and removes the least recently used ones beyond the limit.
-  // REQUIRES: the content is not longer than the limit.
+  // Adds or replaces an entry, then evicts least recently used entries beyond the limit. REQUIRES:
+  // the content is not longer than the limit.
   Status store(const CacheKey& key, ByteView content);
   Status remove(const CacheKey& key);
   // The segment documents of each map's most recently used build.
   Result<std::vector<CachedDocument>> segment_documents();
-  // The map document of each map's most recently used build, by the map's name.
+  // The map document of each map's most recently used build, in order of the map names.
   Result<std::vector<CachedDocument>> map_documents();
   Result<std::uint64_t> bytes();
 

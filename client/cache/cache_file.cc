@@ -54,7 +54,7 @@ Status make_tables(sqlite::Database& database) {
   return made;
 }
 
-// Makes the tables in an empty file; a file with other content is corrupt to us.
+// Creates the tables in an empty file; a file with other content is treated as corrupt.
 Status prepare_tables(sqlite::Database& database) {
   const auto tables = database.integer("SELECT count(*) FROM sqlite_schema");
   if (!tables.ok()) return tables.error();
@@ -64,15 +64,16 @@ Status prepare_tables(sqlite::Database& database) {
   const auto version = database.integer("PRAGMA user_version");
   if (!version.ok()) return version.error();
   if (*id == kApplicationId && *version == kLayoutVersion) return ok_status();
-  return Error{ErrorCode::corrupt, database.file().string(), "this is no cache of this version",
+  return Error{ErrorCode::corrupt, database.file().string(), "not a cache file of this version",
                ""};
 }
 
 Result<CacheFile> open_generation(const fs::path& folder, int generation) {
   auto database = sqlite::Database::open(file_of(folder, generation), sqlite::Access::read_write);
   if (!database.ok()) return database.error();
-  // With a write-ahead log several processes read while one writes. Without a sync at each commit
-  // a power cut may lose the last tiles, never the file. A locked cache is soon given up on.
+  // In WAL mode several processes read while one writes. Without a sync at each commit a power
+  // failure may lose the latest tiles, but never damages the file. A short busy timeout gives up on
+  // a locked cache soon.
   const Status set = database->execute(
       "PRAGMA busy_timeout = 1000;"
       "PRAGMA journal_mode = WAL;"
@@ -91,7 +92,7 @@ void remove_earlier_damaged(const fs::path& folder) {
   }
 }
 
-// Its journal is of no use to anybody: a process that has it open keeps what it has open.
+// The journal is deleted: a process that has the file open keeps its open files.
 void set_aside(const fs::path& folder, int generation) {
   remove_earlier_damaged(folder);
   const std::string file = file_of(folder, generation).string();
@@ -101,7 +102,8 @@ void set_aside(const fs::path& folder, int generation) {
   fs::remove(file + "-shm", ignored);
 }
 
-// The first one after `generation` whose name is free; after the last generation comes the first.
+// The first generation after `generation` whose file name is free; the last generation wraps around
+// to the first.
 int free_generation_after(const fs::path& folder, int generation) {
   std::error_code ignored;
   do {

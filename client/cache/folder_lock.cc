@@ -19,7 +19,8 @@ using std::chrono::steady_clock;
 constexpr milliseconds kLongestWait{1000};
 constexpr milliseconds kBetweenTries{20};
 
-// Whether the lock was got. `errno` says why not: EWOULDBLOCK if it is another's for all the time.
+// Whether the lock was acquired. On failure `errno` is EWOULDBLOCK if another process held it all
+// the time.
 bool wait_for_lock(int descriptor) {
   const steady_clock::time_point end = steady_clock::now() + kLongestWait;
   for (;;) {
@@ -33,7 +34,7 @@ bool wait_for_lock(int descriptor) {
 
 Result<FolderLock> FolderLock::take(const std::filesystem::path& folder) {
   const std::string file = (folder / "lock").string();
-  // Without O_NONBLOCK, opening what is no plain file may wait.
+  // Without O_NONBLOCK, opening a file that is not regular (a FIFO) may block.
   FolderLock lock(::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NONBLOCK, 0666));
   if (lock.descriptor_ >= 0 && wait_for_lock(lock.descriptor_)) return lock;
   if (lock.descriptor_ >= 0 && errno == EWOULDBLOCK) {

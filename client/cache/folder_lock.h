@@ -1,4 +1,4 @@
-// The lock of the cache's folder: one process at a time makes a file or sets one aside.
+// The lock of the cache folder: one process at a time creates or replaces a cache file.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace milepost {
 
-// Held until the end of its life, or of the process.
+// Held until destruction, or until the process ends.
 class FolderLock {
  public:
-  // Waits for a second at most: a process that holds the lock longer hangs or was stopped.
+  // Waits for one second at most: a process that holds the lock longer hangs or is suspended.
   // Errors: unavailable (another process holds it), io.
   static Result<FolderLock> take(const std::filesystem::path& folder);
 

@@ -1,4 +1,4 @@
-// The clock by which pauses are measured: it goes on whatever is done to the time of day.
+// The monotonic clock for pauses; changes of the system time do not affect it.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 
 namespace milepost {
 
-// Seconds since some moment before the process began.
+// Seconds since an arbitrary moment before the process started.
 inline std::int64_t steady_seconds() {
   const auto since_then = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::seconds>(since_then).count();

@@ -11,12 +11,12 @@
 namespace milepost {
 namespace {
 
-// For so long after a lock was refused, it is not asked for again: a vehicle would wait for it at
-// every frame.
+// After a lock was refused, it is not requested again for this time: otherwise a vehicle would wait
+// for it at every frame.
 constexpr std::int64_t kPause_s = 10;
 
 bool is_damage(const Status& status) {
-  // invalid_input: what is stored does not keep the tables' own rules.
+  // invalid_input: the stored rows violate the tables' constraints.
   return !status.ok() && (status.error().code == ErrorCode::corrupt ||
                           status.error().code == ErrorCode::invalid_input);
 }
@@ -52,13 +52,13 @@ void TileCache::run(Kind kind, const Operation& operation) {
   if (done.error().code == ErrorCode::unavailable) pause(opened.ok() ? kind : Kind::reading);
 }
 
-// Who cannot read cannot write.
+// A pause for reading also pauses writing.
 void TileCache::pause(Kind kind) {
   writing_paused_until_s_ = settings_.steady_s() + kPause_s;
   if (kind == Kind::reading) reading_paused_until_s_ = writing_paused_until_s_;
 }
 
-// A file that could not be opened is tried again each time: the disk may have room again.
+// Opening a file is retried at each use: the disk may have space again.
 Status TileCache::open_file() {
   auto opened = open_cache_file(settings_.folder);
   if (!opened.ok()) return opened.error();
@@ -71,7 +71,7 @@ Status TileCache::open_file() {
   return file_.has_value() ? ok_status() : checked;
 }
 
-// REQUIRES: an open file, which is replaced if it turns out to be damaged.
+// REQUIRES: an open file. It is replaced if it turns out to be damaged.
 Status TileCache::run_open(const Operation& operation) {
   Status done = operation(file_->entries);
   if (!is_damage(done)) return done;

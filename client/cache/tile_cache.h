@@ -1,4 +1,4 @@
-// What the vehicle keeps on disk: tiles and cells, and the documents that tell which there are.
+// The client's cache on disk: tiles, cells, and the documents that list them.
 #pragma once
 
 #include <cstdint>
@@ -18,44 +18,44 @@
 namespace milepost {
 
 struct CacheSettings {
-  std::filesystem::path folder;             // made if need be
+  std::filesystem::path folder;             // created if missing
   std::uint64_t limit_bytes = 1ULL << 30U;  // of the contents; SQLite adds a few percent
   std::function<std::int64_t()> steady_s = steady_seconds;
 };
 
-// Counts since the cache was opened.
+// Counters since the cache was opened.
 struct CacheCounters {
-  std::uint64_t failures = 0;         // reads and stores that the disk or a lock refused
-  std::uint64_t damaged_entries = 0;  // dropped, for their bytes did not match their digest
-  std::uint64_t damaged_files = 0;    // set aside
+  std::uint64_t failures = 0;         // reads and writes that failed because of the disk or a lock
+  std::uint64_t damaged_entries = 0;  // dropped: the bytes did not match the digest
+  std::uint64_t damaged_files = 0;    // replaced
 };
 
-// One SQLite file, shared with other processes that name the same folder. It is allowed to forget:
-// a full disk, a lock held too long and a damaged file are counted and otherwise look like an empty
-// cache. A process killed at any instant leaves whole entries only. A lock of another process is
-// waited for a few seconds at most, and then not asked for again for ten seconds; while another
-// process writes, what is stored is still found.
-// Safe to use from several threads at once.
+// One SQLite file, shared with other processes that use the same folder. The cache may lose
+// entries: a full disk, a lock held too long and a damaged file are counted and otherwise behave
+// like an empty cache. A process killed at any time leaves only complete entries. A lock held by
+// another process is waited for a few seconds at most and then not requested for ten seconds; while
+// another process writes, stored entries can still be read. Safe to use from several threads at
+// once.
 class TileCache {
  public:
-  // Errors: io (the folder cannot be made or written to).
+  // Errors: io (the folder cannot be created or written to).
   static Result<std::unique_ptr<TileCache>> open(CacheSettings settings);
 
-  // The content, if it is there and has the digest it was stored with, and counts as a use.
+  // The content, if the entry exists and matches the digest stored with it; marks it as used.
   std::optional<Bytes> find(const CacheKey& key);
-  // The same for one whose digest is known.
+  // The same, also compared with a known digest.
   std::optional<Bytes> find(const CacheKey& key, const std::string& digest);
-  // Counts as a use of the entry, if it is there.
+  // Marks the entry as used, if it exists.
   void touch(const CacheKey& key);
-  // Adds or replaces an entry, and removes the least recently used ones beyond the limit.
+  // Adds or replaces an entry, then evicts least recently used entries beyond the limit.
   void store(const CacheKey& key, ByteView content);
   void remove(const CacheKey& key);
   // The segment documents of each map's most recently used build.
   std::vector<CachedDocument> segment_documents();
-  // The map document of each map's most recently used build, by the map's name.
+  // The map document of each map's most recently used build, in order of the map names.
   std::vector<CachedDocument> map_documents();
 
-  // Of all contents.
+  // The total size of the contents.
   std::uint64_t bytes();
   CacheCounters counters() const;
 
@@ -78,7 +78,7 @@ class TileCache {
   mutable std::mutex mutex_;  // guards all below
   std::optional<OpenFile> file_;
   CacheCounters counters_;
-  // Until then no lock is asked for.
+  // Steady time until which no lock is requested.
   std::int64_t reading_paused_until_s_ = 0;
   std::int64_t writing_paused_until_s_ = 0;
 };

@@ -1,14 +1,13 @@
 // The subcommands of milepost-client.
 #pragma once
 
-#include <string>
-#include <vector>
+#include "schema/command/command.h"
 
 namespace milepost {
 
-int run_find(const std::string& program, std::vector<std::string> words);
-int run_localize(const std::string& program, std::vector<std::string> words);
-int run_evaluate(const std::string& program, std::vector<std::string> words);
-int run_vanishing(const std::string& program, std::vector<std::string> words);
+RunCommand add_find(CLI::App& app);
+RunCommand add_localize(CLI::App& app);
+RunCommand add_evaluate(CLI::App& app);
+RunCommand add_vanishing(CLI::App& app);
 
 }  // namespace milepost

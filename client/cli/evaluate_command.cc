@@ -16,6 +16,17 @@
 namespace milepost {
 namespace {
 
+constexpr const char* kEvaluateDescription =
+    R"(Localizes a drive and compares the fixes with its recorded positions.
+
+Writes summary.json, fixes-METHOD.csv and report.html into the output folder.
+fixes-METHOD.csv has the columns of localize up to latency_ms; then truth_along_m, error_m, lateral_m,
+heading_deg, lateral_sigma_m, truth_lateral_m, lateral_error_m and heading_error_deg.
+An error is the fix minus the truth. Arc length and lateral offset are relative to the segment's
+line, lateral positive to the right; the true heading is the recorded one.
+Example: milepost-client evaluate --map maps/town.map --drive drives/tuesday --out results \
+           --method tracklet-regression-kalman milepost)";
+
 struct EvaluateOptions {
   SourceOptions map;
   std::string drive;
@@ -34,7 +45,7 @@ Result<std::vector<Method>> methods_named(const std::vector<std::string>& names)
   return methods;
 }
 
-// The segment that most fixes lie on, for the report's map.
+// A fix on the segment with the most fixes, for the report's map; null without any.
 const Fix* typical_fix(const std::vector<MethodEvaluation>& methods) {
   std::map<std::string, std::size_t> counts;
   const Fix* typical = nullptr;
@@ -70,7 +81,7 @@ Result<std::string> report_of(const Drive& drive, const std::string& source_name
   return report_page(report_data(input));
 }
 
-// What --estimates adds to the files of an evaluation.
+// Writes the files that --estimates adds to an evaluation.
 Status write_estimates(const std::filesystem::path& out,
                        const std::vector<MethodEvaluation>& methods, MapSource& source) {
   for (const MethodEvaluation& evaluation : methods) {
@@ -86,13 +97,14 @@ Status write_estimates(const std::filesystem::path& out,
   return *regressions ? write_text_file(out / "regressions.csv", **regressions) : ok_status();
 }
 
-// Makes the folder, and makes sure that all files of the evaluation may be written into it.
+// Creates the output folder and checks that all files of the evaluation may be written into it.
 Status prepare_outputs(const EvaluateOptions& options, const Drive& drive) {
   const std::filesystem::path out = options.out;
   std::error_code error;
   std::filesystem::create_directories(out, error);
   if (error) {
-    return Error{ErrorCode::io, out.string(), "the folder cannot be made (" + error.message() + ")",
+    return Error{ErrorCode::io, out.string(),
+                 "the folder cannot be created (" + error.message() + ")",
                  "give another one with --out"};
   }
   const auto output = [&](const std::string& name, const OutputKind& kind) {
@@ -110,7 +122,7 @@ Status prepare_outputs(const EvaluateOptions& options, const Drive& drive) {
   return check_outputs(outputs, inputs_of(drive, options.map));
 }
 
-// All files of an evaluation, each whole or not there.
+// Writes all files of an evaluation; each file is written completely or not at all.
 Status write_evaluation(const std::filesystem::path& out,
                         const std::vector<MethodEvaluation>& methods, const std::string& report) {
   for (const MethodEvaluation& evaluation : methods) {
@@ -168,47 +180,27 @@ int evaluate(const std::string& program, const EvaluateOptions& options) {
 
 }  // namespace
 
-int run_evaluate(const std::string& program, std::vector<std::string> words) {
-  CLI::App app(
-      "Localizes every frame of a drive and says how far the fixes are from the recorded "
-      "positions.\n\n"
-      "Writes summary.json, fixes-METHOD.csv and report.html into the output folder.\n"
-      "fixes-METHOD.csv has the columns of localize up to latency_ms; then truth_along_m, error_m; "
-      "then\n"
-      "lateral_m, heading_deg, lateral_sigma_m and truth_lateral_m, lateral_error_m, "
-      "heading_error_deg.\n"
-      "Errors are fix less truth. Along and lateral are told by the segment's line, lateral "
-      "positive to\n"
-      "the right; the true heading is the recorded one.\n"
-      "Example: milepost-client evaluate --map maps/town.map --drive drives/tuesday --out results "
-      "\\\n"
-      "           --method tracklet-regression-kalman milepost",
-      program);
-  EvaluateOptions options;
+RunCommand add_evaluate(CLI::App& app) {
+  app.description(kEvaluateDescription);
+  const auto options = std::make_shared<EvaluateOptions>();
   std::string known;
   for (const std::string& name : method_names()) known += (known.empty() ? "" : ", ") + name;
-  add_source_options(app, options.map);
-  app.add_option("--drive", options.drive, "Folder of the drive to localize")
+  add_source_options(app, options->map);
+  app.add_option("--drive", options->drive, "Folder of the drive to localize")
       ->required()
       ->option_text("DIR");
-  app.add_option("--out", options.out,
-                 "Folder to write to; made if need be, and files of an old evaluation replaced")
+  app.add_option("--out", options->out,
+                 "Folder to write to, created if missing; earlier results are replaced")
       ->required()
       ->option_text("DIR");
-  app.add_option("--method", options.methods, "Methods to compare: " + known)
+  app.add_option("--method", options->methods, "Methods to compare: " + known)
       ->option_text("M ... [milepost]");
   app.add_flag(
-      "--estimates", options.estimates,
-      "Also write estimates-METHOD.csv, what each matched tracklet said in each frame, and\n"
-      "regressions.csv, the observations of some tracklets, where the map was built with "
-      "--lab");
-  if (const auto code = parse_words(app, std::move(words))) return *code;
-  if (options.map.server.empty() && options.map.map.empty()) {
-    std::cerr << program << ": either --server or --map is required; see '" << program
-              << " --help'\n";
-    return kExitWrongCall;
-  }
-  return evaluate(program, options);
+      "--estimates", options->estimates,
+      "Also write estimates-METHOD.csv, the estimate of each matched tracklet in each frame, and\n"
+      "regressions.csv, the observations of some tracklets, if the map was built with --lab");
+  app.callback([options] { require_source(options->map); });
+  return [options, program = name_of(app)] { return evaluate(program, *options); };
 }
 
 }  // namespace milepost

@@ -18,8 +18,19 @@
 namespace milepost {
 namespace {
 
-const std::map<std::string, FindMethod (*)()> kMethods = {{"orientations", orientations_method},
-                                                          {"combined", combined_method}};
+constexpr const char* kFindDescription =
+    R"(Finds a vehicle without GNSS among the walls of a map.
+
+It uses the frames and the odometry of the drive; recorded positions and gps.csv are ignored.
+Columns: timestamp_s, filename, status (initializing: not found yet; tracking; predicted: propagated by
+odometry without a measurement; lost), latitude_deg, longitude_deg and heading_deg of the densest mode,
+sigma_m (in each direction; of the whole particle set until the vehicle is found), latency_ms,
+mass (probability of that mode) and explained (inlier ratio: the share of recent measurements that
+the walls at the mode explain).
+Example: milepost-client find --map town.map --drive drives/tuesday --out found.csv)";
+
+const std::map<std::string, GlobalMethod (*)()> kFindMethods = {
+    {"orientations", orientations_method}, {"combined", combined_method}};
 
 struct Options {
   SourceOptions source;
@@ -27,7 +38,7 @@ struct Options {
   std::vector<double> area_deg;   // west, south, east, north
   std::vector<double> start_deg;  // latitude, longitude
   double start_sigma_m = 15;
-  double start_heading_deg = 0;
+  std::optional<double> start_heading_deg;
   std::string drive;
   std::string out;
   std::string localized_out;
@@ -46,15 +57,15 @@ std::string names_of(const std::vector<MapDescription>& maps) {
   return names;
 }
 
-// The map to look in. Errors: not_found where none of the source has walls, or not the one named;
-// invalid_input where there are several.
+// The map to search. Errors: not_found if no map of the source has walls, or not the one named;
+// invalid_input if several have walls and none is named.
 Result<MapDescription> map_to_search(MapSource& source, const Options& options) {
   Result<std::vector<MapDescription>> maps = maps_with_walls(source);
   if (!maps) return maps.error();
   const std::string place = options.source.name();
   if (maps->empty()) {
     return Error{ErrorCode::not_found, place, "no map has the layer walls",
-                 "add it by milepost-mapper aerial"};
+                 "add it with milepost-mapper aerial"};
   }
   if (options.map_name.empty() && maps->size() == 1) return maps->front();
   for (const MapDescription& map : *maps) {
@@ -62,14 +73,14 @@ Result<MapDescription> map_to_search(MapSource& source, const Options& options) 
   }
   if (options.map_name.empty()) {
     return Error{ErrorCode::invalid_input, place, "several maps have walls: " + names_of(*maps),
-                 "choose one by --map-name"};
+                 "choose one with --map-name"};
   }
   return Error{ErrorCode::not_found, place,
                "no map '" + options.map_name + "' with walls, but " + names_of(*maps),
-               "choose one of these by --map-name"};
+               "choose one of these with --map-name"};
 }
 
-// How far outside of its area a vehicle sees walls.
+// The distance outside the area up to which walls are visible.
 constexpr double kViewM = RangeSettings{}.reach_m;
 
 std::optional<Bounds> area_of(const Options& options) {
@@ -78,8 +89,8 @@ std::optional<Bounds> area_of(const Options& options) {
   return Bounds{area[0], area[1], area[2], area[3]};
 }
 
-// The walls that are seen from the area. Errors: those of walls_seen_from; not_found where the area
-// has none.
+// The walls visible from the area. Errors: those of walls_seen_from; not_found if no wall lies in
+// the area.
 Result<std::vector<Wall>> walls_to_search(MapSource& source, const MapDescription& map,
                                           const Options& options) {
   const Bounds area = area_of(options).value_or(map.bounds);
@@ -88,12 +99,12 @@ Result<std::vector<Wall>> walls_to_search(MapSource& source, const MapDescriptio
   const auto is_inside = [&](const Wall& wall) { return bounds_of(wall).meets(area); };
   if (std::ranges::none_of(*walls, is_inside)) {
     return Error{ErrorCode::not_found, "map '" + map.version.map + "'",
-                 "there are no walls in the area", "choose another area by --area"};
+                 "there are no walls in the area", "choose another area with --area"};
   }
   return walls;
 }
 
-// Errors: those of read_backdrop; invalid_input for a picture of another place.
+// Errors: those of read_backdrop; invalid_input if the image shows none of the walls.
 Result<std::optional<Backdrop>> backdrop_of(const Options& options,
                                             const std::vector<Wall>& walls) {
   if (options.backdrop.empty()) return std::optional<Backdrop>();
@@ -103,41 +114,38 @@ Result<std::optional<Backdrop>> backdrop_of(const Options& options,
   const bool shows_walls = std::any_of(
       walls.begin(), walls.end(), [&](const Wall& wall) { return bounds_of(wall).meets(box); });
   if (shows_walls) return std::optional(std::move(*backdrop));
-  return Error{ErrorCode::invalid_input, options.backdrop, "the picture shows none of the walls",
-               "check its world file or give a picture of the area"};
+  return Error{ErrorCode::invalid_input, options.backdrop, "the image shows none of the walls",
+               "check its world file or give an image of the area"};
 }
 
-// What of the options cannot be meant, where something cannot.
-std::optional<std::string> wrong_call(const Options& options) {
-  if (options.source.server.empty() && options.source.map.empty()) {
-    return "either --server or --map is required";
-  }
+// Throws: CLI::ParseError if the options contradict each other.
+void check_options(const Options& options) {
+  require_source(options.source);
   const std::optional<Bounds> area = area_of(options);
   if (area && (!area->is_valid() || area->crosses_180())) {
-    return "--area is no box of west, south, east and north (one across longitude 180 cannot be "
-           "given)";
+    throw CLI::ValidationError("--area",
+                               "not a box of west, south, east and north (a box across longitude "
+                               "180 is not supported)");
   }
-  if (options.start_deg.empty()) return std::nullopt;
+  if (options.start_deg.empty()) return;
   const GeoPoint start{options.start_deg[0], options.start_deg[1], 0};
-  if (!is_valid(start)) return "--start is no latitude and longitude";
-  const Bounds about_start{start.longitude_deg, start.latitude_deg, start.longitude_deg,
-                           start.latitude_deg};
-  if (area && !area->meets(about_start)) {
-    return "--start lies outside of --area";
-  }
-  return std::nullopt;
+  if (!is_valid(start)) throw CLI::ValidationError("--start", "not a latitude and longitude");
+  const Bounds at_start{start.longitude_deg, start.latitude_deg, start.longitude_deg,
+                        start.latitude_deg};
+  if (area && !area->meets(at_start))
+    throw CLI::ValidationError("--start", "lies outside of --area");
 }
 
-FinderSettings finder_settings(const Options& options, bool has_heading) {
-  FinderSettings settings;
-  settings.method = kMethods.at(options.method)();
+GlobalLocalizerSettings localizer_settings(const Options& options) {
+  GlobalLocalizerSettings settings;
+  settings.method = kFindMethods.at(options.method)();
   settings.particles = static_cast<std::size_t>(options.particles);
   settings.seed = static_cast<std::uint64_t>(options.seed);
   settings.area = area_of(options);
   if (!options.start_deg.empty()) {
-    settings.start = FindStart{
-        {options.start_deg[0], options.start_deg[1], 0}, options.start_sigma_m, std::nullopt};
-    if (has_heading) settings.start->heading_deg = options.start_heading_deg;
+    settings.start = PosePrior{{options.start_deg[0], options.start_deg[1], 0},
+                               options.start_sigma_m,
+                               options.start_heading_deg};
   }
   return settings;
 }
@@ -162,11 +170,11 @@ std::string found_csv(const std::vector<FoundFrame>& frames) {
       "timestamp_s,filename,status,latitude_deg,longitude_deg,heading_deg,sigma_m,latency_ms,"
       "mass,explained");
   for (const FoundFrame& frame : frames) {
-    const FindFix& fix = frame.fix;
+    const GlobalPoseEstimate& fix = frame.fix;
     csv.rounded(fix.timestamp_s, 4).cell(frame.filename).cell(name_of(fix.status));
     csv.rounded(fix.position.latitude_deg, 9).rounded(fix.position.longitude_deg, 9);
     csv.rounded(fix.heading_deg, 3).rounded(fix.sigma_m, 3).rounded(frame.latency_ms, 2);
-    csv.rounded(fix.mass, 4).rounded(fix.explained, 4).end_row();
+    csv.rounded(fix.mode_probability, 4).rounded(fix.inlier_ratio, 4).end_row();
   }
   return csv.text();
 }
@@ -186,81 +194,58 @@ std::string summary_line(const std::vector<FoundFrame>& frames, const std::strin
 
 void add_options(CLI::App& app, Options& options) {
   add_source_options(app, options.source);
-  app.add_option("--drive", options.drive, "Folder of the drive; it has an odometry.csv")
+  app.add_option("--drive", options.drive, "Folder of the drive, with an odometry.csv")
       ->required()
       ->option_text("DIR");
   app.add_option("--out", options.out, "File to write the fixes to; old fixes are replaced")
       ->required()
       ->option_text("FILE");
-  app.add_option("--map-name", options.map_name, "Which map, where several have walls")
+  app.add_option("--map-name", options.map_name, "Which map to search, if several have walls")
       ->option_text("NAME");
   app.add_option("--area", options.area_deg,
-                 "Box of WGS84 degrees that the vehicle is in (default: all of the map)")
+                 "Box in WGS84 degrees that contains the vehicle (default: the whole map)")
       ->expected(4)
       ->delimiter(',')
       ->option_text("W,S,E,N");
   CLI::Option* start = app.add_option("--start", options.start_deg,
-                                      "Where the vehicle is at first (default: anywhere)")
+                                      "Initial position of the vehicle (default: unknown)")
                            ->expected(2)
                            ->delimiter(',')
                            ->option_text("LAT,LON");
   add_number(app, "--start-sigma-m", options.start_sigma_m, "M",
-             "Standard deviation of that, in each direction", 0.1, 1000)
+             "Standard deviation of the initial position, per axis", 0.1, 1000)
       ->needs(start);
-  add_number(app, "--start-heading-deg", options.start_heading_deg, "DEG",
-             "Its heading then, clockwise from north, within 10 degrees", -360, 360)
-      ->needs(start);
+  app.add_option("--start-heading-deg", options.start_heading_deg,
+                 "Initial heading, clockwise from north, with a standard deviation of 10 degrees\n"
+                 "(-360 to 360)")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->needs(start)
+      ->option_text("DEG");
   app.add_option("--method", options.method,
-                 "orientations: orientations of walls by bearing, the aerial paper's importance;\n"
-                 "combined: these, and points that the moving camera saw, looked for on the walls\n"
-                 "(default)")
-      ->check(CLI::IsMember(kMethods))
+                 "orientations: wall orientations by bearing, weighted as in the aerial paper;\n"
+                 "combined: these and ranges to triangulated points, matched with walls (default)")
+      ->check(CLI::IsMember(kFindMethods))
       ->option_text("M");
   add_number(app, "--particles", options.particles, "N", "Particles of the filter", 10, 1000000);
   add_number(app, "--seed", options.seed, "N", "Seed of the filter's random numbers", 0, 1000000);
   app.add_option("--localize-out", options.localized_out,
-                 "Also localize along the mapped roads, starting from what is found, and write\n"
+                 "Also localize along the mapped roads, starting from the global fixes, and write\n"
                  "these fixes")
       ->option_text("FILE");
   CLI::Option* report =
       app.add_option("--report", options.report,
-                     "Also write a page about the run: the belief at several times, the path, "
-                     "errors\nover time; it alone compares with the recorded positions")
+                     "Also write an HTML report of the run: the belief at several times, the\n"
+                     "path, errors over time; only the report uses the recorded positions")
           ->option_text("FILE.html");
   app.add_option("--backdrop", options.backdrop,
-                 "Picture of the area for the report's plans: PNG or JPEG with a world file in\n"
-                 "WGS84 degrees beside it, as made of an orthoimage by\n"
+                 "Background image for the report's plans: PNG or JPEG with a world file in\n"
+                 "WGS84 degrees next to it, as made from an orthoimage by\n"
                  "gdalwarp -t_srs EPSG:4326 and gdal_translate -of JPEG -co WORLDFILE=YES")
       ->needs(report)
       ->option_text("IMAGE");
 }
 
-}  // namespace
-
-int run_find(const std::string& program, std::vector<std::string> words) {
-  CLI::App app(
-      "Finds a vehicle without any receiver among the walls of a map's area, from the frames and "
-      "the\n"
-      "odometry of its drive; recorded positions and gps.csv are not looked at.\n\n"
-      "Columns: timestamp_s, filename, status (initializing: nothing is found yet; tracking; "
-      "predicted:\n"
-      "carried on by the wheels; lost), latitude_deg, longitude_deg and heading_deg where the "
-      "belief is\n"
-      "densest, sigma_m (in each direction; while nothing is found, of the whole belief), "
-      "latency_ms; then\n"
-      "mass (part of the belief that lies there) and explained (share of what was seen lately that "
-      "the walls\n"
-      "there explain).\n"
-      "Example: milepost-client find --map town.map --drive drives/tuesday --out found.csv",
-      program);
-  Options options;
-  add_options(app, options);
-  if (const auto code = parse_words(app, std::move(words))) return *code;
-  if (const auto wrong = wrong_call(options)) {
-    std::cerr << program << ": " << *wrong << "; see '" << program << " --help'\n";
-    return kExitWrongCall;
-  }
-
+int find(const std::string& program, const Options& options) {
   const Result<Drive> drive = read_drive(options.drive);
   if (!drive) return fail(program, drive.error());
   if (const Status free = check_outputs(outputs_of(options), inputs_of(*drive, options)); !free) {
@@ -279,11 +264,12 @@ int run_find(const std::string& program, std::vector<std::string> words) {
   const Result<FoundDrive> found = [&] {
     ProgressLine progress;
     FindRun run;
-    run.finder = finder_settings(options, app.count("--start-heading-deg") > 0);
+    run.localizer = localizer_settings(options);
     if (!options.localized_out.empty()) run.localizer_source = *source;
     run.stopped = stop_requested;
-    run.on_frame = [&](std::size_t frame, const FindFix& fix, const Finder& finder) {
-      recorder.observe(frame, fix.status, finder);
+    run.on_frame = [&](std::size_t frame, const GlobalPoseEstimate& fix,
+                       const GlobalLocalizer& localizer) {
+      recorder.observe(frame, fix.status, localizer);
       progress.show("frame " + std::to_string(frame + 1) + " of " +
                     std::to_string(drive->frames.size()));
       return !stop_requested();
@@ -310,6 +296,16 @@ int run_find(const std::string& program, std::vector<std::string> words) {
   if (!written.ok()) return fail(program, written.error());
   report_stream(options.out) << summary_line(found->frames, options.out) << "\n";
   return found->outage ? fail(program, *found->outage) : kExitDone;
+}
+
+}  // namespace
+
+RunCommand add_find(CLI::App& app) {
+  app.description(kFindDescription);
+  const auto options = std::make_shared<Options>();
+  add_options(app, *options);
+  app.callback([options] { check_options(*options); });
+  return [options, program = name_of(app)] { return find(program, *options); };
 }
 
 }  // namespace milepost

@@ -10,6 +10,26 @@
 namespace milepost {
 namespace {
 
+constexpr const char* kLocalizeDescription =
+    R"(Localizes a drive and writes one fix per frame.
+
+It starts from the drive's gps.csv and uses its odometry.csv, if there is one, between frames;
+recorded positions are ignored.
+Columns: timestamp_s, filename, status, segment, along_m, sigma_m, latitude_deg, longitude_deg,
+matches, latency_ms, lateral_m (from the segment's line, positive to the right), heading_deg (of the
+camera, clockwise from north) and lateral_sigma_m; the last three are empty where the method does
+not estimate them. Latitude and longitude are the camera's where lateral_m is given, otherwise those
+of along_m on the segment's line.
+Example: milepost-client localize --server http://localhost:8080 --cache cache \
+           --drive drives/tuesday --out fixes.csv)";
+
+struct LocalizeOptions {
+  SourceOptions map;
+  std::string drive;
+  std::string out;
+  std::string method = kDefaultMethod;
+};
+
 std::string summary_line(const std::vector<FrameFix>& fixes, const std::string& out) {
   std::size_t located = 0;
   for (const FrameFix& frame : fixes) located += frame.fix.along_m ? 1 : 0;
@@ -17,54 +37,17 @@ std::string summary_line(const std::vector<FrameFix>& fixes, const std::string& 
          " frames localized";
 }
 
-}  // namespace
-
-int run_localize(const std::string& program, std::vector<std::string> words) {
-  CLI::App app(
-      "Localizes every frame of a drive and writes one fix a frame.\n\n"
-      "The start comes from the drive's gps.csv, the motion between frames also from its "
-      "odometry.csv where\n"
-      "there is one; recorded positions are not looked at.\n"
-      "Columns: timestamp_s, filename, status, segment, along_m, sigma_m, latitude_deg, "
-      "longitude_deg,\n"
-      "matches, latency_ms; then lateral_m (from the segment's line, positive to the right),\n"
-      "heading_deg (of the camera, clockwise from north) and lateral_sigma_m, which are empty "
-      "where\n"
-      "the method does not know them. Latitude and longitude are the camera's where lateral_m is "
-      "known,\n"
-      "else those of along_m on the segment's line.\n"
-      "Example: milepost-client localize --server http://localhost:8080 --cache cache \\\n"
-      "           --drive drives/tuesday --out fixes.csv",
-      program);
-  SourceOptions map;
-  std::string folder;
-  std::string out;
-  std::string method_name = kDefaultMethod;
-  add_source_options(app, map);
-  app.add_option("--drive", folder, "Folder of the drive to localize")
-      ->required()
-      ->option_text("DIR");
-  app.add_option("--out", out, "File to write the fixes to; old fixes are replaced")
-      ->required()
-      ->option_text("FILE");
-  app.add_option("--method", method_name, "How to localize (default " + method_name + ")")
-      ->option_text("M");
-  if (const auto code = parse_words(app, std::move(words))) return *code;
-  if (map.server.empty() && map.map.empty()) {
-    std::cerr << program << ": either --server or --map is required; see '" << program
-              << " --help'\n";
-    return kExitWrongCall;
-  }
-
-  const Result<Method> method = method_named(method_name);
+int localize(const std::string& program, const LocalizeOptions& options) {
+  const Result<Method> method = method_named(options.method);
   if (!method) return fail(program, method.error());
-  const Result<Drive> drive = read_drive(folder);
+  const Result<Drive> drive = read_drive(options.drive);
   if (!drive) return fail(program, drive.error());
-  if (const Status free = check_outputs({{"--out", out, &kFixesOutput}}, inputs_of(*drive, map));
+  if (const Status free =
+          check_outputs({{"--out", options.out, &kFixesOutput}}, inputs_of(*drive, options.map));
       !free) {
     return fail(program, free.error());
   }
-  const Result<std::shared_ptr<MapSource>> source = open_source(map);
+  const Result<std::shared_ptr<MapSource>> source = open_source(options.map);
   if (!source) return fail(program, source.error());
   catch_stop_signals();
   const Result<Replay> replay = [&] {
@@ -76,10 +59,28 @@ int run_localize(const std::string& program, std::vector<std::string> words) {
     });
   }();
   if (!replay) return fail(program, replay.error());
-  const Status written = write_text_file(out, fixes_csv(replay->fixes.front()));
+  const Status written = write_text_file(options.out, fixes_csv(replay->fixes.front()));
   if (!written.ok()) return fail(program, written.error());
-  report_stream(out) << summary_line(replay->fixes.front(), out) << "\n";
+  report_stream(options.out) << summary_line(replay->fixes.front(), options.out) << "\n";
   return replay->outage ? fail(program, *replay->outage) : kExitDone;
+}
+
+}  // namespace
+
+RunCommand add_localize(CLI::App& app) {
+  app.description(kLocalizeDescription);
+  const auto options = std::make_shared<LocalizeOptions>();
+  add_source_options(app, options->map);
+  app.add_option("--drive", options->drive, "Folder of the drive to localize")
+      ->required()
+      ->option_text("DIR");
+  app.add_option("--out", options->out, "File to write the fixes to; old fixes are replaced")
+      ->required()
+      ->option_text("FILE");
+  app.add_option("--method", options->method, "How to localize (default " + options->method + ")")
+      ->option_text("M");
+  app.callback([options] { require_source(options->map); });
+  return [options, program = name_of(app)] { return localize(program, *options); };
 }
 
 }  // namespace milepost

@@ -13,16 +13,22 @@ void add_source_options(CLI::App& app, SourceOptions& options) {
       group->add_option("--server", options.server, "Tile server to fetch from, http://HOST:PORT")
           ->option_text("URL");
   CLI::Option* cache =
-      group->add_option("--cache", options.cache, "Folder that keeps fetched tiles")
+      group->add_option("--cache", options.cache, "Folder to cache fetched tiles in")
           ->option_text("DIR");
   CLI::Option* limit =
       add_number(*group, "--cache-limit-mb", options.cache_limit_mb, "MB",
-                 "Megabytes kept in the cache; the least recently used go first", 1, 1e6);
+                 "Maximum cache size in megabytes; least recently used tiles are evicted", 1, 1e6);
   CLI::Option* map = group->add_option("--map", options.map, "Map file to read instead of a server")
                          ->option_text("FILE");
   server->needs(cache)->excludes(map);
   cache->needs(server);
   limit->needs(server);
+}
+
+void require_source(const SourceOptions& options) {
+  if (options.server.empty() && options.map.empty()) {
+    throw CLI::RequiredError("either --server or --map");
+  }
 }
 
 std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOptions& options) {

@@ -1,4 +1,4 @@
-// Where a command gets its map from: --server URL --cache DIR, or --map FILE.
+// The map source of a command: --server URL --cache DIR, or --map FILE.
 #pragma once
 
 #include <filesystem>
@@ -21,10 +21,12 @@ struct SourceOptions {
   std::string name() const { return map.empty() ? server : map; }
 };
 
-// Adds the options, and that either a server with its cache or a map file is required.
 void add_source_options(CLI::App& app, SourceOptions& options);
 
-// The files that a command reads which replays a drive on a map.
+// Throws: CLI::RequiredError if neither a server nor a map file was given.
+void require_source(const SourceOptions& options);
+
+// The files read by a command that replays a drive on a map.
 std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOptions& options);
 
 // Errors: those of open_http_source and open_file_source.

@@ -18,11 +18,33 @@
 namespace milepost {
 namespace {
 
+constexpr const char* kVanishingDescription =
+    R"(Finds the vanishing directions of building edges in images.
+
+They are the vertical and the horizontal ones, which are the orientations of walls relative to the
+camera. FILE gets a list with one object per image, in the order of the arguments: image; directions,
+each with direction [x, y, z] (unit vector, x right, y down, z forward; its sign is arbitrary), lines
+(the number that support it) and orientation (vertical or horizontal); lines, each
+[x1, y1, x2, y2, index] in pixels, the longest first, with the index of its direction from 0, or -1.
+Methods: evidence (each line votes with its own noise, then all directions are refined jointly) and
+clustering (the aerial paper's: subtractive clustering of line intersections).
+Images have the camera's size and no lens distortion.
+Example: milepost-client vanishing --camera drives/tuesday/drive.json --out found.json \
+           drives/tuesday/frames/*.jpg)";
+
+struct VanishingOptions {
+  std::string camera;
+  std::string out;
+  std::string method = "evidence";
+  std::vector<std::string> images;
+  VanishingSettings settings;
+};
+
 using Json = nlohmann::ordered_json;
 
 using FindDirections = VanishingDirections (*)(const cv::Mat& gray, const Pinhole& view,
                                                const VanishingSettings& settings);
-const std::map<std::string, FindDirections> kMethods = {
+const std::map<std::string, FindDirections> kVanishingMethods = {
     {"clustering", clustered_vanishing_directions}, {"evidence", vanishing_directions}};
 
 bool begins_directions(std::string_view head) {
@@ -73,7 +95,7 @@ Result<Json> found_in_all(const std::vector<std::string>& images, const Camera& 
   return entries;
 }
 
-// Errors: invalid_input for a name that is not UTF-8.
+// Errors: invalid_input for a file name that is not UTF-8.
 Result<std::string> text_of(const Json& entries, const std::string& out) {
   try {
     return entries.dump() + "\n";
@@ -82,64 +104,47 @@ Result<std::string> text_of(const Json& entries, const std::string& out) {
   }
 }
 
-}  // namespace
-
-int run_vanishing(const std::string& program, std::vector<std::string> words) {
-  CLI::App app(
-      "Finds, in each image, the directions of the edges of buildings: the vertical, and the "
-      "horizontal\n"
-      "ones, which are the orientations of walls relative to the camera.\n\n"
-      "FILE gets a list with one object an image, in the order of the call: image; directions, "
-      "each "
-      "with\n"
-      "direction [x, y, z] (unit vector, x right, y down, z forward; its opposite means the same), "
-      "lines\n"
-      "(how many belong to it) and orientation (vertical or horizontal); lines, each [x1, y1, x2, "
-      "y2, "
-      "index]\n"
-      "in pixels, the longest first, index of its direction from 0, or -1 for a line of none.\n"
-      "Methods: evidence (lines vote by their own noise, then all directions are refined together) "
-      "and\n"
-      "clustering (the aerial paper's: subtractive clustering of where lines meet).\n"
-      "Images have the camera's size and no lens distortion.\n"
-      "Example: milepost-client vanishing --camera drives/tuesday/drive.json --out found.json \\\n"
-      "           drives/tuesday/frames/*.jpg",
-      program);
-  std::string camera_file;
-  std::string out;
-  std::string method = "evidence";
-  std::vector<std::string> images;
-  VanishingSettings settings;
-  app.add_option("--camera", camera_file, "A drive.json, of which the camera is read")
-      ->required()
-      ->option_text("FILE");
-  app.add_option("--out", out, "File to write the directions to; an old one is replaced")
-      ->required()
-      ->option_text("FILE");
-  app.add_option("--method", method, "How to find them (default " + method + ")")
-      ->check(CLI::IsMember(kMethods))
-      ->option_text("M");
-  add_number(app, "--max-tilt-deg", settings.max_tilt_deg, "DEG",
-             "Greatest tilt of the camera, roll and pitch together", 1, 44);
-  app.add_option("IMAGE", images, "Images to look at")->required()->option_text("IMAGE...");
-  if (const auto code = parse_words(app, std::move(words))) return *code;
-
-  const Result<Camera> camera = read_camera(camera_file);
+int find_vanishing_directions(const std::string& program, const VanishingOptions& options) {
+  const Result<Camera> camera = read_camera(options.camera);
   if (!camera) return fail(program, camera.error());
-  std::vector<std::filesystem::path> inputs(images.begin(), images.end());
-  inputs.emplace_back(camera_file);
-  if (const Status free = check_outputs({{"--out", out, &kDirectionsOutput}}, inputs); !free) {
+  std::vector<std::filesystem::path> inputs(options.images.begin(), options.images.end());
+  inputs.emplace_back(options.camera);
+  if (const Status free = check_outputs({{"--out", options.out, &kDirectionsOutput}}, inputs);
+      !free) {
     return fail(program, free.error());
   }
   catch_stop_signals();
-  const Result<Json> entries = found_in_all(images, *camera, kMethods.at(method), settings);
+  const Result<Json> entries =
+      found_in_all(options.images, *camera, kVanishingMethods.at(options.method), options.settings);
   if (!entries) return fail(program, entries.error());
-  const Result<std::string> text = text_of(*entries, out);
+  const Result<std::string> text = text_of(*entries, options.out);
   if (!text) return fail(program, text.error());
-  const Status written = write_text_file(out, *text);
+  const Status written = write_text_file(options.out, *text);
   if (!written.ok()) return fail(program, written.error());
-  report_stream(out) << out << ": " << images.size() << " images\n";
+  report_stream(options.out) << options.out << ": " << options.images.size() << " images\n";
   return kExitDone;
+}
+
+}  // namespace
+
+RunCommand add_vanishing(CLI::App& app) {
+  app.description(kVanishingDescription);
+  const auto options = std::make_shared<VanishingOptions>();
+  app.add_option("--camera", options->camera, "drive.json to read the camera from")
+      ->required()
+      ->option_text("FILE");
+  app.add_option("--out", options->out, "File to write the directions to; an old one is replaced")
+      ->required()
+      ->option_text("FILE");
+  app.add_option("--method", options->method, "Method (default " + options->method + ")")
+      ->check(CLI::IsMember(kVanishingMethods))
+      ->option_text("M");
+  add_number(app, "--max-tilt-deg", options->settings.max_tilt_deg, "DEG",
+             "Maximum tilt of the camera, roll and pitch combined", 1, 44);
+  app.add_option("IMAGE", options->images, "Images to process")
+      ->required()
+      ->option_text("IMAGE...");
+  return [options, program = name_of(app)] { return find_vanishing_directions(program, *options); };
 }
 
 }  // namespace milepost

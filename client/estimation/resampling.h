@@ -1,4 +1,4 @@
-// Systematic resampling of weighed particles.
+// Systematic resampling of weighted particles.
 #pragma once
 
 #include <cstddef>
@@ -6,9 +6,9 @@
 
 namespace milepost {
 
-// Calls take(i) `count` times, each particle as often as its part of the weights says, to one more
-// or less: one draw places a comb of `count` equal teeth over the summed weights.
-// REQUIRES: particles > 0; weight_of(i) of each is not negative, and they sum up to `total` > 0.
+// Calls take(i) `count` times. Each particle i is taken in proportion to its weight, rounded up or
+// down: one random number offsets a comb of `count` equidistant teeth over the cumulative weights.
+// REQUIRES: particles > 0; all weight_of(i) >= 0, and their sum is `total` > 0.
 template <class WeightOf, class Random, class Take>
 void resample_systematically(std::size_t particles, const WeightOf& weight_of, double total,
                              std::size_t count, Random& random, const Take& take) {

@@ -1,4 +1,4 @@
-// Weights of robust least squares: what a residual counts, 1 at 0. All are even.
+// Weight functions of robust least squares: even, with value 1 at a residual of 0.
 #pragma once
 
 #include <algorithm>

@@ -5,10 +5,10 @@
 namespace milepost {
 namespace {
 
-// Drives write receiver times to the millisecond and frame times finer.
+// Drives store GNSS times to the millisecond and frame times more precisely.
 constexpr double kClockRoundingS = 0.001;
 
-// Takes from the front of `left` what is not later than that.
+// Removes from the front of `left` the readings up to that time and returns them.
 template <class Reading>
 std::span<const Reading> taken_until(double timestamp_s, std::span<const Reading>& left) {
   const auto end = std::ranges::upper_bound(left, timestamp_s, {}, &Reading::timestamp_s);

@@ -1,4 +1,4 @@
-// What it takes to play a recorded drive to a localizer or a finder.
+// Helpers to replay a recorded drive to a localizer.
 #pragma once
 
 #include <chrono>
@@ -9,23 +9,22 @@
 
 namespace milepost {
 
-// The receiver's and the wheels' readings of a drive, each told once its time has come. The drive
-// must outlive it.
+// The GNSS and odometry readings of a drive, each returned once its time has come. REQUIRES: the
+// drive outlives this object.
 class SensorLog {
  public:
   explicit SensorLog(const Drive& drive) : gps_(drive.gps), odometry_(drive.odometry) {}
 
-  // Those up to that time that were not told yet.
+  // The readings up to that time that were not returned before.
   std::span<const GpsFix> gps_until(double timestamp_s);
   std::span<const Odometry> odometry_until(double timestamp_s);
 
  private:
-  // What is left to tell.
   std::span<const GpsFix> gps_;
   std::span<const Odometry> odometry_;
 };
 
-// Of a frame whose map did not come.
+// The fix of a frame whose map data did not arrive.
 Fix fix_without_map(double timestamp_s, bool had_fix);
 
 class Stopwatch {

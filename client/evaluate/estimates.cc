@@ -10,8 +10,8 @@
 namespace milepost {
 namespace {
 
-constexpr double kReachM = 20;            // of the tracklets told, around the fix
-constexpr std::size_t kRegressions = 12;  // told
+constexpr double kReachM = 20;            // of the tracklets listed, around the fix
+constexpr std::size_t kRegressions = 12;  // listed
 
 void add_observations(CsvText& csv, std::size_t number, const ObservedTracklet& observed) {
   const Tracklet& tracklet = observed.tracklet;

@@ -1,4 +1,4 @@
-// What single tracklets said, and what they were made of: for those who study the estimates.
+// The estimates of single tracklets and their observations, for studies of the estimates.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,15 @@ namespace milepost {
 extern const OutputKind kEstimatesOutput;
 extern const OutputKind kRegressionsOutput;
 
-// Whether some frame was followed by tracklets.
+// Whether some frame was tracked by tracklets.
 bool has_estimates(const std::vector<EvaluatedFix>& fixes);
 
-// estimates-METHOD.csv: one row a matched tracklet of each frame that has a fix.
+// estimates-METHOD.csv: one row per matched tracklet of each frame with a fix.
 std::string estimates_csv(const std::vector<EvaluatedFix>& fixes);
 
-// regressions.csv: the observations of the tracklets around a fix that were followed the longest,
-// one row an observation, of the layer `observations`. Nothing where the map has no such layer.
-// Errors: those of the source; corrupt (a tile).
+// regressions.csv: the observations of the longest tracklets around a fix, one row per observation,
+// from the layer `observations`. None if the map has no such layer. Errors: those of the source;
+// corrupt (a tile).
 Result<std::optional<std::string>> regressions_csv(MapSource& source, const Fix& fix);
 
 }  // namespace milepost

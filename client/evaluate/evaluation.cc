@@ -24,7 +24,7 @@ struct SegmentName {
   }
 };
 
-// The lines of the segments met, each read once.
+// The lines of the segments used, each read once.
 class Lines {
  public:
   explicit Lines(MapSource& source) : source_(source) {}
@@ -44,7 +44,7 @@ class Lines {
   std::map<SegmentName, RouteLine> lines_;
 };
 
-// The segment a frame's truth is told on: its fix's, or the nearest one.
+// The segment for a frame's ground truth: its fix's, or the nearest one.
 Result<std::optional<SegmentName>> segment_for_truth(const Fix& fix, const GeoPoint& position,
                                                      MapSource& source) {
   if (fix.along_m) return std::optional(SegmentName{fix.version, fix.segment});
@@ -125,7 +125,7 @@ Result<double> map_kb_per_m(const std::set<SegmentName>& driven, const std::stri
   return bytes / 1000 / length_m;
 }
 
-// Sets the truth on the line of the segment, and how far the fix is from it.
+// Sets the ground truth relative to the line of the segment, and the errors of the fix.
 void compare(const Frame& frame, const RouteLine& line, EvaluatedFix& evaluated) {
   const Fix& fix = evaluated.frame.fix;
   const LineProjection truth = line.project(frame.position);

@@ -10,22 +10,24 @@
 namespace milepost {
 namespace {
 
-constexpr std::chrono::seconds kLongestWait(20);  // for the map, of one frame
+constexpr std::chrono::seconds kLongestWait(20);  // for the map data of one frame
 
-// The route localizer, which hears of the finder what it else hears of a receiver.
+// The localizer along roads after the hand-off: it receives the global fixes in place of GNSS
+// fixes.
 class Successor {
  public:
   Successor(const std::shared_ptr<MapSource>& source, const Camera& camera)
       : localizer_(source, camera, LocalizerSettings()) {}
 
-  void observe(const Odometry& wheels) { localizer_.observe(wheels); }
+  void observe(const Odometry& odometry) { localizer_.observe(odometry); }
 
-  // A map that does not come costs this frame only. Errors: those of a map that it cannot use.
-  Result<FrameFix> localize(const Frame& frame, const cv::Mat& gray, const FindFix& found,
-                            const Stopped& stopped) {
-    if (found.status == FindStatus::tracking) {
+  // Map data that does not arrive affects this frame only. Errors: those of a map that the
+  // localizer cannot use.
+  Result<FrameFix> localize(const Frame& frame, const cv::Mat& gray,
+                            const GlobalPoseEstimate& found, const Stopped& stopped) {
+    if (found.status == GlobalStatus::tracking) {
       localizer_.observe(
-          CoarsePosition{frame.timestamp_s, found.position, found.sigma_m, found.heading_deg});
+          GnssFix{frame.timestamp_s, found.position, found.sigma_m, found.heading_deg});
     }
     localizer_.wait_for_tiles(frame.timestamp_s, std::chrono::steady_clock::now() + kLongestWait,
                               stopped);
@@ -43,7 +45,7 @@ class Successor {
       outage_ = fix.error();
       fix = fix_without_map(frame.timestamp_s, had_fix_);
     }
-    if (localizer_.noted_error()) outage_ = localizer_.noted_error();
+    if (localizer_.last_error()) outage_ = localizer_.last_error();
     had_fix_ = had_fix_ || fix->along_m.has_value();
     return FrameFix{frame.filename, std::move(*fix), latency_ms, {}};
   }
@@ -62,10 +64,10 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
                               const FindRun& run) {
   if (drive.odometry.empty()) {
     return Error{ErrorCode::invalid_input, (drive.folder / "odometry.csv").string(),
-                 "there is nothing that says how the vehicle moved",
-                 "add what its wheels said (timestamp_s,speed_mps,yaw_rate_dps)"};
+                 "the drive has no odometry",
+                 "add the odometry readings (timestamp_s,speed_mps,yaw_rate_dps)"};
   }
-  Finder finder(walls, drive.camera.pinhole, run.finder);
+  GlobalLocalizer localizer(walls, drive.camera.pinhole, run.localizer);
   std::optional<Successor> successor;
   if (run.localizer_source) successor.emplace(run.localizer_source, drive.camera);
 
@@ -76,12 +78,12 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
     const Frame& frame = drive.frames[i];
     const Result<cv::Mat> gray = frames.gray(i);
     if (!gray) return gray.error();
-    for (const Odometry& wheels : sensors.odometry_until(frame.timestamp_s)) {
-      finder.observe(wheels);
-      if (successor) successor->observe(wheels);
+    for (const Odometry& odometry : sensors.odometry_until(frame.timestamp_s)) {
+      localizer.observe(odometry);
+      if (successor) successor->observe(odometry);
     }
     const Stopwatch watch;
-    const FindFix fix = finder.find(*gray, frame.timestamp_s);
+    const GlobalPoseEstimate fix = localizer.find(*gray, frame.timestamp_s);
     found.frames.push_back({frame.filename, fix, watch.ms()});
     if (successor) {
       Result<FrameFix> localized = successor->localize(frame, *gray, fix, run.stopped);
@@ -89,7 +91,7 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
       found.localized.push_back(std::move(*localized));
       found.outage = successor->outage();
     }
-    if (!run.on_frame(i, fix, finder)) {
+    if (!run.on_frame(i, fix, localizer)) {
       return Error{ErrorCode::cancelled, drive.folder.string(),
                    "stopped on request, nothing was written", ""};
     }

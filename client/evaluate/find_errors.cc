@@ -37,15 +37,15 @@ FindErrorFigures figures_of(const std::vector<Claim>& claims) {
 
 }  // namespace
 
-bool is_tracked(FindStatus status) {
-  return status == FindStatus::tracking || status == FindStatus::predicted;
+bool is_tracked(GlobalStatus status) {
+  return status == GlobalStatus::tracking || status == GlobalStatus::predicted;
 }
 
 std::vector<FindError> find_errors(const Drive& drive, const std::vector<FoundFrame>& frames) {
   std::vector<FindError> errors;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Frame& truth = drive.frames[i];
-    const FindFix& fix = frames[i].fix;
+    const GlobalPoseEstimate& fix = frames[i].fix;
     if (!is_valid(truth.position) || !is_valid(fix.position)) {
       errors.push_back({kNaN, kNaN});
       continue;
@@ -64,7 +64,7 @@ FindSummary find_summary(const std::vector<FoundFrame>& frames,
   std::vector<Claim> headings;
   std::vector<double> latencies_ms;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const FindFix& fix = frames[i].fix;
+    const GlobalPoseEstimate& fix = frames[i].fix;
     latencies_ms.push_back(frames[i].latency_ms);
     if (!is_tracked(fix.status)) continue;
     if (summary.tracked_frames++ == 0) {

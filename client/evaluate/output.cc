@@ -35,7 +35,7 @@ nlohmann::ordered_json figure(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-// Of a table for a person.
+// A cell of a human-readable table.
 std::string cell(double value, int digits) {
   return std::isfinite(value) ? fixed(value, digits) : "-";
 }

@@ -10,15 +10,15 @@
 namespace milepost {
 namespace {
 
-// A value made from a frame when a localizer first asks for it, and the time that took.
+// A value computed from a frame when first needed, and the time that took.
 template <class Value>
 class MadeOnce {
  public:
   void forget() { made_ms_.reset(); }
-  // Begins another localizer's turn.
+  // Begins the turn of the next localizer.
   void begin_turn() { charged_ = false; }
 
-  // Adds to `spared_ms`, once a turn, what a localizer on its own would have spent.
+  // Adds to `spared_ms`, once per turn, the time that the localizer would have spent on its own.
   template <class Make>
   const Value& get(const Make& make, double& spared_ms) {
     if (!made_ms_) {
@@ -38,7 +38,7 @@ class MadeOnce {
   bool charged_ = false;
 };
 
-// What localizers ask of one frame at a time.
+// The inputs of localizers computed from one frame at a time.
 class FrameContent {
  public:
   void set_frame(cv::Mat gray) {
@@ -66,7 +66,7 @@ class FrameContent {
     return image_.get([this] { return wisurf(gray_); }, spared_ms_);
   }
 
-  // What this turn did not take because an earlier one had made it.
+  // The time saved in this turn because an earlier one had computed the value.
   double spared_ms() const { return spared_ms_; }
 
  private:
@@ -80,23 +80,23 @@ class FrameContent {
 
 struct Runner {
   Localizer localizer;
-  std::unique_ptr<std::vector<TrackletEstimate>> estimates;  // of the frame it is at
+  std::unique_ptr<std::vector<TrackletEstimate>> estimates;  // of the current frame
   bool had_fix = false;
 };
 
-// What the sensors said up to a time.
+// Passes the sensor readings up to a time to all localizers.
 void tell(SensorLog& sensors, double timestamp_s, std::vector<Runner>& runners) {
   const std::span<const GpsFix> all_gps = sensors.gps_until(timestamp_s);
   const std::span<const Odometry> all_odometry = sensors.odometry_until(timestamp_s);
   for (Runner& runner : runners) {
     for (const GpsFix& gps : all_gps) {
-      runner.localizer.observe(CoarsePosition{gps.timestamp_s, gps.position, gps.sigma_m});
+      runner.localizer.observe(GnssFix{gps.timestamp_s, gps.position, gps.sigma_m});
     }
     for (const Odometry& odometry : all_odometry) runner.localizer.observe(odometry);
   }
 }
 
-// How long a replay may wait for the map: for one frame, and in all.
+// Limits the time a replay waits for map data: per frame and in total.
 class TilePatience {
  public:
   void wait(Localizer& localizer, double timestamp_s, const Stopped& stopped) {
@@ -110,7 +110,7 @@ class TilePatience {
     left_s_ -= watch.ms() / 1000;
   }
 
-  // Whether nothing was waited for that may come late: what failed so soon fails for good.
+  // Whether hardly any time was spent waiting: an error that comes this soon is permanent.
   bool is_fresh() const { return left_s_ > kAllS - kAtOnceS; }
 
  private:
@@ -120,8 +120,8 @@ class TilePatience {
   double left_s_ = kAllS;
 };
 
-// One frame through one localizer. A source that does not answer costs this frame only, but one
-// that is not there from the beginning.
+// Processes one frame with one localizer. An error of the source affects this frame only, except
+// before the first fix, unless the source may become available by waiting.
 Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, const TilePatience& patience,
                            Runner& runner, Replay& replay) {
   content.begin_turn();
@@ -141,7 +141,7 @@ Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, const Tile
     fix = fix_without_map(frame.timestamp_s, runner.had_fix);
   }
   runner.had_fix = runner.had_fix || fix->along_m.has_value();
-  if (runner.localizer.noted_error()) replay.outage = runner.localizer.noted_error();
+  if (runner.localizer.last_error()) replay.outage = runner.localizer.last_error();
   return FrameFix{frame.filename, std::move(*fix), latency_ms, *runner.estimates};
 }
 
@@ -153,7 +153,7 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
   if (drive.gps.empty()) {
     return Error{ErrorCode::invalid_input, (drive.folder / "gps.csv").string(),
                  "there is no position to start from",
-                 "add the receiver's positions (timestamp_s,latitude_deg,longitude_deg,sigma_m)"};
+                 "add GNSS positions (timestamp_s,latitude_deg,longitude_deg,sigma_m)"};
   }
   std::vector<Runner> runners;
   for (const Method& method : methods) {
@@ -161,9 +161,8 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
     settings.method = method;
     auto estimates = std::make_unique<std::vector<TrackletEstimate>>();
     if (with_estimates) {
-      settings.scout.on_estimate = [all = estimates.get()](const TrackletEstimate& estimate) {
-        all->push_back(estimate);
-      };
+      settings.method_settings.on_estimate =
+          [all = estimates.get()](const TrackletEstimate& estimate) { all->push_back(estimate); };
     }
     runners.push_back({Localizer(source, drive.camera, settings), std::move(estimates)});
   }

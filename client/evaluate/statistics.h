@@ -5,16 +5,16 @@
 
 namespace milepost {
 
-// The finite ones, in their order.
+// The finite values, in their order.
 std::vector<double> finite_only(const std::vector<double>& values);
 
-// The value below which that share of `ascending` lies, between neighbours in proportion.
-// NaN without values.
+// The quantile at `share` in [0, 1], linearly interpolated. NaN without values. REQUIRES: ascending
+// values.
 double quantile(const std::vector<double>& ascending, double share);
 
 // NaN without values.
 double mean_of(const std::vector<double>& values);
-// About the mean, of all values. NaN without values.
+// Population standard deviation. NaN without values.
 double deviation_of(const std::vector<double>& values);
 
 }  // namespace milepost

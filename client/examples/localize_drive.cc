@@ -1,11 +1,11 @@
-// Localizes a recorded drive with libmilepost, as a vehicle would: images, a receiver's positions
-// and the wheels' readings in, fixes out.
+// Localizes a recorded drive with libmilepost, as a vehicle would: images, GNSS positions and wheel
+// odometry in, fixes out.
 //
 //   localize_drive DRIVE MAP              against a map file
 //   localize_drive DRIVE URL CACHE        against a tile server, with a cache folder
 //
-// DRIVE is a drive folder (drive.json, trajectory.csv, gps.csv, perhaps odometry.csv). OpenCV reads
-// the images and the JSON here; libmilepost itself asks for neither.
+// DRIVE is a drive folder (drive.json, trajectory.csv, gps.csv, optionally odometry.csv). This
+// program reads the images and the JSON with OpenCV; libmilepost's interface needs neither.
 #include <milepost/localizer.h>
 
 #include <cstdio>
@@ -23,7 +23,7 @@ namespace vehicle = milepost::vehicle;
 
 using Row = std::vector<std::string>;
 
-// The rows of a table, without its header; none where there is no such file.
+// The rows of a CSV file without its header; none if there is no such file.
 std::vector<Row> rows_of(const std::string& file) {
   std::vector<Row> rows;
   std::ifstream in(file);
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   const cv::FileStorage description(drive + "/drive.json", cv::FileStorage::READ);
   const std::string images = description["images"];
 
-  // 1. Where the map comes from. Opening reads no map yet and waits for no server.
+  // 1. The map source. Opening reads no map data yet and does not wait for a server.
   vehicle::Source source = vehicle::FileSource{argv[2]};
   if (argc == 4) {
     vehicle::ServerSource server;
@@ -78,16 +78,16 @@ int main(int argc, char** argv) {
   if (!localizer) return fail(localizer.error());
 
   const std::vector<Row> positions = rows_of(drive + "/gps.csv");
-  const std::vector<Row> wheels = rows_of(drive + "/odometry.csv");
+  const std::vector<Row> odometry = rows_of(drive + "/odometry.csv");
   std::size_t next_position = 0;
-  std::size_t next_wheels = 0;
+  std::size_t next_odometry = 0;
   std::size_t tracked = 0;
   std::size_t frames = 0;
   for (const Row& frame : rows_of(drive + "/trajectory.csv")) {
     const std::string& filename = frame.at(0);
     const double timestamp_s = std::stod(frame.at(1));
 
-    // 2. What the other sensors said up to this image. A reading that is refused is left out.
+    // 2. The readings of the other sensors up to this image. A rejected reading is ignored.
     for (; next_position < positions.size(); ++next_position) {
       const Row& row = positions[next_position];
       vehicle::ReceiverReading reading;
@@ -99,8 +99,8 @@ int main(int argc, char** argv) {
       const vehicle::Status taken = localizer->observe(reading);
       if (!taken) fail(taken.error());
     }
-    for (; next_wheels < wheels.size(); ++next_wheels) {
-      const Row& row = wheels[next_wheels];
+    for (; next_odometry < odometry.size(); ++next_odometry) {
+      const Row& row = odometry[next_odometry];
       vehicle::OdometryReading reading;
       reading.timestamp_s = std::stod(row.at(0));
       if (reading.timestamp_s > timestamp_s) break;
@@ -110,11 +110,11 @@ int main(int argc, char** argv) {
       if (!taken) fail(taken.error());
     }
 
-    // 3. A recording is played faster than it was driven, so the map is waited for; a vehicle
-    // drives on with what it holds. What does not arrive in time is no reason to stop.
+    // 3. A recording is played faster than it was driven, so wait for the map data; a vehicle
+    // drives on with what is held. Data that does not arrive in time is no reason to stop.
     (void)localizer->wait_for_map(timestamp_s);
 
-    // 4. The image: a view of its pixels, read during the call.
+    // 4. The image: a view of its pixels, which are read during the call only.
     const cv::Mat pixels = cv::imread(drive + "/" + images + "/" + filename, cv::IMREAD_GRAYSCALE);
     vehicle::ImageView image;
     image.data = pixels.data;
@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
       continue;
     }
 
-    // 5. The fix. Only `tracking` is measured; its sigmas say how far it may be off.
+    // 5. The fix. Only `tracking` is measured; the sigmas state its uncertainty.
     std::printf("%.3f %-12s", timestamp_s, vehicle::name_of(fix->status));
     if (fix->along_m) {
       std::printf(" %s along %.3f m +- %.3f", fix->segment.c_str(), *fix->along_m, fix->sigma_m);

@@ -33,7 +33,7 @@ ErrorCode code_of(milepost::ErrorCode code) {
   return ErrorCode::cancelled;
 }
 
-constexpr double kLongestS = 3600;  // of a time-out
+constexpr double kLongestS = 3600;  // of a timeout
 
 bool is_above_zero(double value) { return std::isfinite(value) && value > 0; }
 
@@ -42,7 +42,7 @@ Result<std::shared_ptr<MapSource>> as_face(milepost::Result<std::shared_ptr<MapS
   return std::move(*source);
 }
 
-// Six degrees of freedom as a vector: metres and radians, as the tangent frame has them.
+// Six degrees of freedom as a vector, in metres and radians of the tangent frame.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
@@ -54,7 +54,7 @@ Vector6 vector_from(const CameraPose& pose) {
   return v;
 }
 
-// The vehicle's frame is that of a camera that looks forward: x right, y down, z forward.
+// The vehicle frame has the axes of a camera that looks forward: x right, y down, z forward.
 Eigen::Isometry3d vehicle_from_camera(const Mounting& mounting) {
   const CameraPose vehicle;  // where forward is north
   const CameraPose camera = {{mounting.right_m, mounting.forward_m, mounting.up_m},
@@ -67,7 +67,7 @@ Eigen::Isometry3d vehicle_from_camera(const Mounting& mounting) {
 }  // namespace
 
 Error error_of(const milepost::Error& error) {
-  return {code_of(error.code), error.where, error.what, error.mend};
+  return {code_of(error.code), error.where, error.what, error.hint};
 }
 
 std::chrono::steady_clock::time_point deadline_of(const Patience& patience) {
@@ -76,8 +76,8 @@ std::chrono::steady_clock::time_point deadline_of(const Patience& patience) {
          std::min(patience.longest, std::chrono::milliseconds(kYear));
 }
 
-Error wrong(const std::string& where, const std::string& what, const std::string& mend) {
-  return {ErrorCode::invalid_input, where, what, mend};
+Error wrong(const std::string& where, const std::string& what, const std::string& hint) {
+  return {ErrorCode::invalid_input, where, what, hint};
 }
 
 Status check_reading(const OdometryReading& reading) {
@@ -90,7 +90,7 @@ Status check_reading(const OdometryReading& reading) {
 Status check_camera(const Camera& camera) {
   if (camera.width_px < 1 || camera.height_px < 1) {
     return wrong("camera", "width_px and height_px are not both above 0",
-                 "give the size of its images");
+                 "pass the size of its images");
   }
   if (!is_above_zero(camera.focal_x_px) || !is_above_zero(camera.focal_y_px)) {
     return wrong("camera", "focal_x_px and focal_y_px are not both above 0",
@@ -106,11 +106,11 @@ Status check_camera(const Camera& camera) {
   for (const double coefficient : camera.distortion) {
     if (coefficient == 0) continue;
     return Error{ErrorCode::unsupported, "camera", "lenses with distortion are not supported yet",
-                 "rectify the images, and give the pinhole camera that they are then of"};
+                 "rectify the images and pass the pinhole camera of the rectified images"};
   }
   if (camera.lens == LensModel::kannala_brandt) {
     return Error{ErrorCode::unsupported, "camera", "fisheye lenses are not supported yet",
-                 "rectify the images, and give the pinhole camera that they are then of"};
+                 "rectify the images and pass the pinhole camera of the rectified images"};
   }
   return {};
 }
@@ -132,8 +132,8 @@ Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
                         std::max(server.connect_timeout_s, server.stall_timeout_s) <= kLongestS;
   if (!is_sound) {
     return Error{ErrorCode::invalid_input, "source",
-                 "a time-out or the least bytes a second are not above 0, or longer than an hour",
-                 "leave them as they are"};
+                 "a timeout or least_bytes_per_s is not above 0, or a timeout exceeds an hour",
+                 "use the default values"};
   }
   HttpSourceSettings settings;
   settings.server_url = server.url;
@@ -145,7 +145,7 @@ Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
   return as_face(open_http_source(settings));
 }
 
-Pose vehicle_pose_of(const CameraPlacement& camera, const Mounting& mounting) {
+Pose vehicle_pose_of(const GeoCameraPose& camera, const Mounting& mounting) {
   const Eigen::Isometry3d camera_from_vehicle = vehicle_from_camera(mounting).inverse();
   const auto vehicle_of = [&](const Vector6& camera_pose) {
     return vector_from(pose_of(enu_from_camera(pose_from(camera_pose)) * camera_from_vehicle));
@@ -158,13 +158,13 @@ Pose vehicle_pose_of(const CameraPlacement& camera, const Mounting& mounting) {
   for (int i = 0; i < 6; ++i) {
     const Vector6 step = kStep * Vector6::Unit(i);
     Vector6 change = vehicle_of(at + step) - vehicle_of(at - step);
-    // Headings turn over at south.
+    // Headings wrap around at south.
     for (int angle = 3; angle < 6; ++angle) {
       change[angle] = std::remainder(change[angle], 2 * std::numbers::pi);
     }
     derivative.col(i) = change / (2 * kStep);
   }
-  // Of metres and degrees, as the covariances are.
+  // In metres and degrees, like the covariances.
   derivative.topRightCorner<3, 3>() *= kRadPerDeg;
   derivative.bottomLeftCorner<3, 3>() /= kRadPerDeg;
   const LocalFrame frame(camera.position);

@@ -1,4 +1,4 @@
-// Between the public face's values and the library's own.
+// Conversions between the types of the public interface and the internal ones.
 #pragma once
 
 #include <milepost/camera.h>
@@ -12,7 +12,7 @@
 #include <memory>
 
 #include "client/fetch/map_source.h"
-#include "client/localize/tracked_position.h"
+#include "client/localize/tracked_pose.h"
 #include "schema/base/result.h"
 #include "schema/geo/pinhole.h"
 
@@ -20,22 +20,23 @@ namespace milepost::vehicle {
 
 Error error_of(const milepost::Error& error);
 
-// From now on. A year at most: longer ones are as good as for ever, and cannot be counted.
+// The time at which the patience ends, limited to a year from now to avoid overflow.
 std::chrono::steady_clock::time_point deadline_of(const Patience& patience);
 
-// An error that is invalid_input.
-Error wrong(const std::string& where, const std::string& what, const std::string& mend);
+// An error with the code invalid_input.
+Error wrong(const std::string& where, const std::string& what, const std::string& hint);
 
 // Errors: invalid_input (not finite).
 Status check_reading(const OdometryReading& reading);
-// Errors: invalid_input (a value out of its range), unsupported (a lens with distortion).
+// Errors: invalid_input (a value out of range), unsupported (a lens with distortion).
 Status check_camera(const Camera& camera);
 milepost::Camera plain_camera_of(const Camera& camera);
 
 // Errors: those of Localizer::open.
 Result<std::shared_ptr<MapSource>> open_source(const Source& source);
 
-// The vehicle's reference point, from where its camera is.
-Pose vehicle_pose_of(const CameraPlacement& camera, const Mounting& mounting);
+// The pose of the vehicle's reference point from that of its camera, with the covariance propagated
+// by the Jacobian.
+Pose vehicle_pose_of(const GeoCameraPose& camera, const Mounting& mounting);
 
 }  // namespace milepost::vehicle

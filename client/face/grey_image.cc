@@ -9,7 +9,7 @@ namespace {
 
 struct Layout {
   int channels = 1;
-  int to_grey = -1;  // of OpenCV; -1: it is
+  int to_grey = -1;  // OpenCV's conversion code; -1: already grey
 };
 
 Layout layout_of(PixelFormat format) {
@@ -36,20 +36,21 @@ std::string size_of(int width_px, int height_px) {
 
 Result<cv::Mat> grey_image(const ImageView& image, const Camera& camera) {
   if (image.data == nullptr) {
-    return Error{ErrorCode::invalid_input, "image", "it has no data", "give its first pixel"};
+    return Error{ErrorCode::invalid_input, "image", "it has no data",
+                 "pass a pointer to its first pixel"};
   }
   if (image.width_px != camera.width_px || image.height_px != camera.height_px) {
     return Error{ErrorCode::invalid_input, "image",
-                 "it is of " + size_of(image.width_px, image.height_px) +
-                     " pixels, the camera of " + size_of(camera.width_px, camera.height_px),
-                 "give images as the camera's parameters describe them"};
+                 "it has " + size_of(image.width_px, image.height_px) + " pixels, the camera " +
+                     size_of(camera.width_px, camera.height_px),
+                 "pass images of the size in the camera parameters"};
   }
   const Layout layout = layout_of(image.format);
   if (image.stride_bytes < static_cast<std::ptrdiff_t>(image.width_px) * layout.channels) {
     return Error{ErrorCode::invalid_input, "image", "stride_bytes is shorter than a row",
-                 "give the bytes from a row to the next"};
+                 "pass the bytes from the start of one row to that of the next"};
   }
-  // OpenCV has no views of what may not be written to; it only reads this one.
+  // OpenCV has no views of constant data; it only reads this one.
   const cv::Mat pixels(image.height_px, image.width_px, CV_8UC(layout.channels),
                        const_cast<std::uint8_t*>(  // NOLINT(cppcoreguidelines-pro-type-const-cast)
                            image.data),

@@ -1,4 +1,4 @@
-// A user's image as the library looks at it.
+// Conversion of the caller's images to grey.
 #pragma once
 
 #include <milepost/camera.h>
@@ -9,8 +9,8 @@
 
 namespace milepost::vehicle {
 
-// 8-bit grey; of a grey image a view of the user's own pixels.
-// Errors: invalid_input (no image, or one of another size than the camera's).
+// The image in 8-bit grey; for a grey image a view of the caller's pixels. Errors: invalid_input
+// (no image data, or a size other than the camera's).
 Result<cv::Mat> grey_image(const ImageView& image, const Camera& camera);
 
 }  // namespace milepost::vehicle

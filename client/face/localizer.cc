@@ -98,7 +98,7 @@ Result<Localizer> Localizer::open(const Source& source, const Camera& camera,
   const Status sound = check_camera(camera);
   if (!sound) return sound.error();
   if (!(settings.ahead_m >= 0 && settings.ahead_m <= 5000)) {
-    return wrong("settings", "ahead_m is not from 0 to 5000", "give metres of map ahead");
+    return wrong("settings", "ahead_m is not in [0, 5000]", "pass metres of map ahead");
   }
   const Result<std::shared_ptr<MapSource>> opened = open_source(source);
   if (!opened) return opened.error();
@@ -118,22 +118,24 @@ Status Localizer::observe(const ReceiverReading& reading) {
                         std::isfinite(reading.altitude_m) && std::isfinite(reading.sigma_m) &&
                         reading.sigma_m > 0 && std::isfinite(reading.heading_deg.value_or(0));
   if (!is_sound) {
-    return wrong("receiver reading", "a value is not finite or out of its range",
-                 "give degrees of WGS84 and a sigma above 0");
+    return wrong("receiver reading", "a value is not finite or out of range",
+                 "pass WGS84 degrees and a sigma above 0");
   }
   if (impl_->latest_receiver_s && reading.timestamp_s < *impl_->latest_receiver_s) {
-    return wrong("receiver reading", "it is earlier than the one before", "give them in order");
+    return wrong("receiver reading", "it is earlier than the previous one",
+                 "pass readings in order of time");
   }
   impl_->latest_receiver_s = reading.timestamp_s;
   impl_->localizer.observe(
-      CoarsePosition{reading.timestamp_s, position, reading.sigma_m, reading.heading_deg});
+      GnssFix{reading.timestamp_s, position, reading.sigma_m, reading.heading_deg});
   return {};
 }
 
 Status Localizer::observe(const OdometryReading& reading) {
   if (Status sound = check_reading(reading); !sound) return sound;
   if (impl_->latest_odometry_s && reading.timestamp_s <= *impl_->latest_odometry_s) {
-    return wrong("odometry reading", "it is not later than the one before", "give them in order");
+    return wrong("odometry reading", "it is not later than the previous one",
+                 "pass readings in order of time");
   }
   impl_->latest_odometry_s = reading.timestamp_s;
   impl_->localizer.observe(Odometry{reading.timestamp_s, reading.speed_mps, reading.yaw_rate_dps});
@@ -142,10 +144,11 @@ Status Localizer::observe(const OdometryReading& reading) {
 
 Result<Fix> Localizer::localize(double timestamp_s, const ImageView& image) {
   if (!std::isfinite(timestamp_s)) {
-    return wrong("image", "its time is not finite", "give the seconds of the vehicle's clock");
+    return wrong("image", "its timestamp is not finite", "pass seconds of the vehicle's clock");
   }
   if (impl_->latest_image_s && timestamp_s <= *impl_->latest_image_s) {
-    return wrong("image", "its time is not after that of the one before", "give them in order");
+    return wrong("image", "its timestamp is not later than the previous one",
+                 "pass images in order of time");
   }
   const Result<cv::Mat> grey = grey_image(image, impl_->camera);
   if (!grey) return grey.error();
@@ -182,8 +185,8 @@ Status Localizer::wait_for_map(double timestamp_s, const Patience& patience) {
   if (patience.cancelled && patience.cancelled()) {
     return Error{ErrorCode::cancelled, "map", "stopped on request", ""};
   }
-  return Error{ErrorCode::timed_out, "map", "not all of it has arrived in time",
-               "wait longer, or go on without"};
+  return Error{ErrorCode::timed_out, "map", "it has not arrived completely in time",
+               "wait longer, or continue without it"};
 }
 
 }  // namespace milepost::vehicle

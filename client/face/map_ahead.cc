@@ -10,7 +10,7 @@
 namespace milepost::vehicle {
 namespace {
 
-// From a place on without a missing tile, to the end of the segment at most.
+// The contiguous length held from an arc length on, at most to the end of the segment.
 double held_from_m(const HeldSegment& segment, double along_m) {
   const double end_m = segment.layer->line.length_m();
   double held_to_m = end_m;
@@ -54,7 +54,7 @@ MapAhead map_ahead_of(const HeldMap& held, const Wants& wants,
   const bool is_known = !wants.around || held.segments_near(*wants.around);
   if (!is_known && held.around_failure) ahead.failure = error_of(*held.around_failure);
   for (const Want& want : wants.tiles) add_missing(held, want, ahead);
-  // What is wanted twice is missing once.
+  // Ranges wanted twice are listed once.
   const auto order = [](const MissingRange& range) {
     return std::tie(range.map, range.segment, range.from_m, range.to_m);
   };

@@ -1,4 +1,4 @@
-// What is held of the map ahead, for people to look at.
+// The public summary of the map data held ahead.
 #pragma once
 
 #include <milepost/localizer.h>
@@ -15,7 +15,7 @@ struct OnSegment {
   double along_m = 0;
 };
 
-// `from`: where the vehicle is, if that is known.
+// `from`: the position of the vehicle, if known.
 MapAhead map_ahead_of(const HeldMap& held, const Wants& wants,
                       const std::optional<OnSegment>& from);
 

@@ -7,7 +7,7 @@
 namespace milepost {
 namespace {
 
-// A rectangle of the grid; both corners are in it.
+// A rectangle of the grid, including both corner cells.
 struct Block {
   GridCell south_west, north_east;
 };
@@ -23,7 +23,7 @@ Block first_block(const std::vector<CellEntry>& index, const std::set<std::uint3
   for (const CellEntry& entry : index) {
     if (!missing.contains(entry.cell)) unwanted.push_back(GridCell::numbered(entry.cell));
   }
-  // First as far to the east as the row allows, then as far to the north.
+  // Extends as far to the east as the row allows, then as far to the north.
   for (const GridCell& cell : unwanted) {
     if (cell.row == block.south_west.row && cell.column > block.south_west.column) {
       block.north_east.column = std::min(block.north_east.column, cell.column - 1);
@@ -39,7 +39,7 @@ Block first_block(const std::vector<CellEntry>& index, const std::set<std::uint3
   return block;
 }
 
-// From middle to middle of the corner cells: a box along borders would meet the neighbours.
+// From centre to centre of the corner cells: a box along their borders would meet the neighbours.
 Bounds box_within(const Block& block) {
   const Bounds first = block.south_west.bounds();
   const Bounds last = block.north_east.bounds();
@@ -60,8 +60,8 @@ CellRequest request_for_first_block(const std::vector<CellEntry>& index,
 Status check_area_query(const Bounds& box) {
   if (box.is_valid()) return ok_status();
   return Error{ErrorCode::invalid_input, "cells of a box",
-               "a side is out of range, or south is more than north",
-               "give degrees of WGS84: longitudes in [-180, 180], latitudes in [-90, 90]"};
+               "a side is out of range, or south is greater than north",
+               "use WGS84 degrees: longitudes in [-180, 180], latitudes in [-90, 90]"};
 }
 
 }  // namespace milepost

@@ -1,4 +1,4 @@
-// Which one request brings missing cells with nothing besides.
+// Selects the request that brings missing cells and no others.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@
 namespace milepost {
 
 struct CellRequest {
-  std::optional<Bounds> box;        // none: the one cell by its own URL
-  std::vector<CellEntry> expected;  // what the answer must consist of, in this order
+  std::optional<Bounds> box;        // none: a single cell, requested by its own URL
+  std::vector<CellEntry> expected;  // the cells that the response must consist of, in this order
 };
 
 // The request for a rectangle of the grid with the first missing cell in its south-west corner and
-// with no cell of `index` in it that is not missing: a vehicle that goes on misses the rows and
-// columns ahead of it.
-// REQUIRES: `missing` (cell numbers) is not empty and all in `index`, which is ascending.
+// without cells of `index` that are not missing: a moving vehicle misses the rows and columns ahead
+// of it. REQUIRES: `missing` (cell numbers) is not empty and contained in `index`, which is
+// ascending.
 CellRequest request_for_first_block(const std::vector<CellEntry>& index,
                                     const std::set<std::uint32_t>& missing);
 
-// Errors: invalid_input for a box that is none.
+// Errors: invalid_input for an invalid box.
 Status check_area_query(const Bounds& box);
 
 }  // namespace milepost

@@ -15,13 +15,13 @@ constexpr std::uint32_t kLastCell = kCellRows * kCellColumns - 1;
 
 std::string segment_id(JsonFields& fields, const Json& object, const char* key) {
   std::string id = fields.text(object, key);
-  if (fields.ok() && !is_segment_id(id)) fields.fail("\"" + id + "\" is no segment's id");
+  if (fields.ok() && !is_segment_id(id)) fields.fail("\"" + id + "\" is not a segment id");
   return id;
 }
 
 MapVersion version_of(JsonFields& fields, const Json& json, const char* name_key) {
   MapVersion version{fields.text(json, name_key), fields.text(json, "build")};
-  if (fields.ok() && !is_digest(version.build)) fields.fail("\"build\" is no digest");
+  if (fields.ok() && !is_digest(version.build)) fields.fail("\"build\" is not a digest");
   return version;
 }
 
@@ -34,20 +34,20 @@ std::vector<std::string> successors_of(JsonFields& fields, const Json& json) {
   std::vector<std::string> successors;
   for (const Json& id : fields.array(json, "successors")) {
     const bool valid = id.is_string() && is_segment_id(id.get_ref<const std::string&>());
-    if (!valid) fields.fail("a successor is no segment's id");
+    if (!valid) fields.fail("a successor is not a segment id");
     if (valid) successors.push_back(id.get<std::string>());
   }
   return successors;
 }
 
-// The fields that a tile and a cell have alike.
+// Reads the fields common to tiles and cells.
 template <class Entry>
 void read_stored(JsonFields& fields, const Json& json, Entry& entry) {
   entry.items = fields.whole(json, "items", std::numeric_limits<std::uint64_t>::max());
   entry.bytes = fields.whole(json, "bytes", kMaxFrameBytes);
   entry.digest = fields.text(json, "digest");
   if (fields.ok() && entry.bytes == 0) fields.fail("a tile without bytes");
-  if (fields.ok() && !is_digest(entry.digest)) fields.fail("\"digest\" is no digest");
+  if (fields.ok() && !is_digest(entry.digest)) fields.fail("\"digest\" is not a digest");
 }
 
 TileEntry tile_entry_of(JsonFields& fields, const Json& json) {
@@ -67,13 +67,13 @@ CellEntry cell_entry_of(JsonFields& fields, const Json& json) {
   return entry;
 }
 
-// The entries of a layer, ascending by `number_of`.
+// The entries of a layer; must be ascending by `number_of`.
 template <class Entry>
 std::vector<Entry> index_of(JsonFields& fields, const Json& list,
                             Entry (*entry_of)(JsonFields&, const Json&),
                             std::uint32_t Entry::*number_of) {
   std::vector<Entry> index;
-  if (!list.is_array()) fields.fail("a layer's tiles are no list");
+  if (!list.is_array()) fields.fail("a layer's tiles are not a list");
   for (const Json& json : list) {
     Entry entry = entry_of(fields, json);
     if (!index.empty() && entry.*number_of <= index.back().*number_of) {
@@ -94,7 +94,7 @@ std::map<std::string, std::vector<Entry>> indices_of(JsonFields& fields, const J
   std::map<std::string, std::vector<Entry>> indices;
   for (const auto& [layer, list] : fields.object(json, key).items()) {
     if (!is_layer_name(layer)) {
-      fields.fail(std::string("\"") + key + "\" has a member that is no layer's name");
+      fields.fail(std::string("\"") + key + "\" has a member that is not a layer name");
     }
     indices[layer] = index_of(fields, list, entry_of, number_of);
   }
@@ -110,9 +110,10 @@ Bounds bounds_of(JsonFields& fields, const Json& json) {
   return bounds;
 }
 
-void check_is_about(JsonFields& fields, const std::string& asked, const std::string& told) {
-  if (fields.ok() && asked != told) {
-    fields.fail("the document is about \"" + told + "\", asked for was \"" + asked + "\"");
+void check_is_about(JsonFields& fields, const std::string& requested, const std::string& received) {
+  if (fields.ok() && requested != received) {
+    fields.fail("the document is about \"" + received + "\", but \"" + requested +
+                "\" was requested");
   }
 }
 
@@ -162,7 +163,7 @@ Result<MapDescription> parse_map_document(std::string_view text, const std::stri
   const Json& parameters = fields.object(json, "layer_parameters");
   for (const Json& layer : fields.array(json, "layers")) {
     if (!layer.is_string() || !is_layer_name(layer.get_ref<const std::string&>())) {
-      fields.fail("\"layers\" has a member that is no layer's name");
+      fields.fail("\"layers\" has a member that is not a layer name");
       break;
     }
     const std::string name = layer.get<std::string>();

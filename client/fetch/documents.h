@@ -1,4 +1,4 @@
-// The server's JSON documents (PROTOCOL.md) as values. Never trusts a field.
+// Parsers of the server's JSON documents (PROTOCOL.md). Every field is validated.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace milepost {
 
-// A segment, and which tiles it has: the index of each layer, ascending.
+// A segment and its tiles: the tile index of each layer, ascending.
 struct SegmentDocument {
   SegmentDescription description;
   std::map<std::string, std::vector<TileEntry>> tiles;
@@ -21,8 +21,8 @@ struct SegmentDocument {
 // The cells of each layer that has any, ascending.
 using AreasDocument = std::map<std::string, std::vector<CellEntry>>;
 
-// `where` (the document's URL) goes into errors. Errors of all: corrupt, also for a document that
-// is about something else than what was asked for.
+// `where` (the document's URL) is used in error messages. Errors of all: corrupt, also for a
+// document about something else than what was requested.
 Result<std::vector<MapVersion>> parse_catalog_document(std::string_view text,
                                                        const std::string& where);
 Result<std::vector<NearbySegment>> parse_nearby_document(std::string_view text,
@@ -35,13 +35,13 @@ Result<SegmentDocument> parse_segment_document(std::string_view text, const std:
 Result<AreasDocument> parse_areas_document(std::string_view text, const std::string& where,
                                            const MapVersion& version);
 
-// The entries whose along range meets `range`.
+// The entries whose arc length range meets `range`.
 std::vector<TileEntry> entries_meeting(const std::vector<TileEntry>& index,
                                        const AlongRange& range);
 // The entries whose cell meets `box`.
 std::vector<CellEntry> entries_meeting(const std::vector<CellEntry>& index, const Bounds& box);
 
-// Of all tiles of the index.
+// The total size of the tiles of the index.
 std::uint64_t bytes_of(const std::vector<TileEntry>& index);
 
 }  // namespace milepost

@@ -21,14 +21,14 @@ SegmentDescription description_of(const StoredSegment& stored) {
   return description;
 }
 
-// Of a JSON object that lies in the map as text.
+// Parses parameters from a JSON object that the map file stores as text.
 template <class Parameters>
 Result<Parameters> parameters_from(const std::string& text,
                                    Result<Parameters> (*from_json)(const nlohmann::json&)) {
   const Result<nlohmann::json> json = read_json(text);
   if (json) return from_json(*json);
   Error error = json.error();
-  error.mend = "build the map anew";
+  error.hint = "build the map anew";
   return error;
 }
 
@@ -43,12 +43,12 @@ MapDescription description_of(const MapReader& reader) {
   return description;
 }
 
-// What the sources of one file share.
+// The state shared by all sources of one file.
 struct OpenFile {
   explicit OpenFile(MapReader opened)
       : reader(std::move(opened)), description(description_of(reader)) {}
 
-  std::mutex mutex;  // guards the reader and what is read
+  std::mutex mutex;  // guards `reader` and `lines`
   MapReader reader;
   const MapDescription description;
   std::optional<std::vector<KnownLine>> lines;
@@ -183,10 +183,10 @@ class FileSource : public MapSource {
     return Error{ErrorCode::gone, file,
                  "the map was rebuilt: build " + version.build + " is gone, the current one is " +
                      file_->description.version.build,
-                 "ask for the map's current build"};
+                 "request the map's current build"};
   }
 
-  // Once; the file never changes under an open reader.
+  // Loads the lines once; the file never changes under an open reader.
   Status load_lines() {
     if (file_->lines.has_value()) return ok_status();
     std::vector<KnownLine> lines;

@@ -60,7 +60,7 @@ std::optional<std::vector<NearbySegment>> HeldMap::segments_near(const Surroundi
       const LineProjection nearest = held->layer->line.project(asked.position);
       segment.along_m = nearest.along_m;
       segment.distance_m = nearest.distance_m;
-    } else {  // no farther than that
+    } else {  // a lower bound of the distance
       segment.distance_m = std::abs(segment.distance_m - moved_m);
     }
     if (segment.distance_m <= asked.radius_m) near.push_back(std::move(segment));

@@ -1,4 +1,4 @@
-// What of a map lies in memory at one instant: finished, immutable, and shared.
+// A snapshot of the map data in memory: decoded, immutable and shared.
 #pragma once
 
 #include <cstdint>
@@ -16,34 +16,35 @@
 
 namespace milepost {
 
-// A decoded tile. Tracklets are observations that were not kept.
-using DecodedTile = std::variant<LandmarkTile, ObservationTile, FrameTile>;
+// A decoded tile. Tracklets without observations are decoded as an ObservationTile with empty
+// tracks.
+using DecodedTile = std::variant<LandmarkTile, ObservationTile, ImageDescriptorTile>;
 
 // Errors: corrupt (FORMAT.md).
 Result<DecodedTile> decode_tile_of(LayerItems items, ByteView encoded);
 
 struct HeldSegment {
-  std::shared_ptr<const SegmentLayer> layer;  // empty until its documents are there
-  std::optional<Error> failure;               // why they are not
+  std::shared_ptr<const SegmentLayer> layer;  // null until its documents have arrived
+  std::optional<Error> failure;               // why they have not
   std::map<std::uint32_t, std::shared_ptr<const DecodedTile>> tiles;
-  std::map<std::uint32_t, Error> missing;  // tiles asked for in vain, and why
+  std::map<std::uint32_t, Error> missing;  // tiles whose request failed, and why
 };
 
-// A value: nothing in it changes. Safe to read from several threads at once.
+// Immutable once published. Safe to read from several threads at once.
 class HeldMap {
  public:
-  // Null where the segment was never wanted.
+  // Null if the segment is not wanted.
   const HeldSegment* find(const SegmentKey& key) const;
 
-  // The segments that pass within a distance of a position, nearest first; nothing while that is
-  // not known as far as there.
+  // The segments that pass within a radius of a position, nearest first; none while the
+  // surroundings are not known up to that radius.
   std::optional<std::vector<NearbySegment>> segments_near(const Surroundings& asked) const;
 
   std::map<SegmentKey, std::shared_ptr<const HeldSegment>> segments;
-  // All segments within the surroundings, as they were told.
+  // All segments within the known surroundings, as the source listed them.
   Surroundings known_around{{}, -1};
   std::vector<NearbySegment> around;
-  std::optional<Error> around_failure;  // why they are not known anew
+  std::optional<Error> around_failure;  // why they could not be updated
 };
 
 }  // namespace milepost

@@ -21,8 +21,8 @@ namespace milepost {
 namespace {
 
 constexpr std::size_t kMaxDocumentsInMemory = 64;
-// For so long after it was unavailable, the server is not asked what the cache knows: a vehicle
-// without a network would wait for the connection to time out at every frame.
+// After the server was unavailable, it is not asked for this time for what the cache knows:
+// otherwise a vehicle without a network would wait for a connection timeout at every frame.
 constexpr std::int64_t kServerAway_s = 5;
 
 template <class Entry>
@@ -32,8 +32,8 @@ bool is_unavailable(const Status& status) {
   return !status.ok() && status.error().code == ErrorCode::unavailable;
 }
 
-// The documents of one kind that were read lately, parsed, by their keys in the cache. Safe to use
-// from several threads at once.
+// Recently read documents of one kind, parsed, by their cache keys. Safe to use from several
+// threads at once.
 template <class Document>
 class DocumentMemory {
  public:
@@ -47,7 +47,7 @@ class DocumentMemory {
 
   void keep(const CacheKey& key, Shared document) {
     const std::lock_guard lock(mutex_);
-    // The cache on disk has them all, so that starting afresh costs little.
+    // The cache on disk has them all, so clearing the memory costs little.
     if (documents_.size() >= kMaxDocumentsInMemory) documents_.clear();
     documents_[parts_of(key)] = std::move(document);
   }
@@ -61,8 +61,8 @@ class DocumentMemory {
   std::map<std::array<std::string, 3>, Shared> documents_;
 };
 
-// The lines of the cached segments, made when they are first needed. Safe to use from several
-// threads at once.
+// The lines of the cached segments, built when first needed. Safe to use from several threads at
+// once.
 class LineMemory {
  public:
   using Lines = std::shared_ptr<const std::vector<KnownLine>>;
@@ -73,7 +73,7 @@ class LineMemory {
     return lines_;
   }
 
-  // What the cache holds, or which build was used last, may have changed.
+  // Called when the contents of the cache or the most recently used build may have changed.
   void forget() {
     const std::lock_guard lock(mutex_);
     lines_ = nullptr;
@@ -84,7 +84,7 @@ class LineMemory {
   Lines lines_;
 };
 
-// What the callers of one source share.
+// The state shared by all callers of one source.
 struct HttpShared {
   HttpShared(std::string url, const HttpSourceSettings& settings, HttpSourceParts parts,
              std::unique_ptr<TileCache> open_cache)
@@ -174,7 +174,7 @@ class HttpSource : public MapSource {
     const auto index = index_of(version, segment, layer);
     if (!index.ok()) return index.error();
     const std::vector<TileEntry> wanted = entries_meeting(**index, range);
-    // Its document must not be forgotten before its tiles are.
+    // The segment document must not be evicted before its tiles.
     cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
     const std::string tiles_url = segment_url(version, segment) + "/tiles";
     auto found = fetcher_.fetch(
@@ -197,7 +197,7 @@ class HttpSource : public MapSource {
     const auto index = cell_index_of(version, layer);
     if (!index.ok()) return index.error();
     const std::vector<CellEntry> wanted = entries_meeting(**index, box);
-    // The documents that lead to the cells must not be forgotten before them.
+    // The documents that list the cells must not be evicted before them.
     cache_.touch(CacheKey::areas_document(version.map, version.build));
     cache_.touch(CacheKey::map_document(version.map, version.build));
     const std::string layer_url = areas_url(version) + "/" + escaped_for_url(layer);
@@ -239,7 +239,7 @@ class HttpSource : public MapSource {
                       const TileSink& take) override {
     const auto index = index_of(version, segment, layer);
     if (!index.ok()) return {index.error()};
-    // The documents that lead to the tiles must not be forgotten before them.
+    // The documents that list the tiles must not be evicted before them.
     cache_.touch(CacheKey::map_document(version.map, version.build));
     cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
     std::set<std::uint32_t> missing;
@@ -248,9 +248,9 @@ class HttpSource : public MapSource {
         missing.insert(entry.index);
       }
     }
-    if (missing.empty()) {  // the document was another when they were asked for
+    if (missing.empty()) {  // the document has changed since the tiles were selected
       return {Error{ErrorCode::corrupt, segment_url(version, segment),
-                    "its tiles are not those that it told before", "build the map anew"}};
+                    "its tiles are not those that it listed before", "build the map anew"}};
     }
     const std::string tiles_url = segment_url(version, segment) + "/tiles";
     return fetcher_.fetch_once(
@@ -321,7 +321,7 @@ class HttpSource : public MapSource {
     return {ErrorCode::gone, url,
             "the map was rebuilt: build " + asked.build + " is gone, the current one is " +
                 current.build,
-            "ask for the map's current build"};
+            "request the map's current build"};
   }
 
   Status document(const std::string& url, const DocumentReader& read) {
@@ -329,8 +329,8 @@ class HttpSource : public MapSource {
                         [&] { return requests_.try_document(url, read, stopped_); });
   }
 
-  // What the server says now; while it cannot be reached, or something else answers in its place,
-  // what is known without it, if anything is.
+  // The server's current list; while the server cannot be reached or something else answers in its
+  // place, the list known without it, if not empty.
   template <class Item>
   Result<std::vector<Item>> current_list(
       const std::string& url, const std::function<std::vector<Item>()>& known_items,
@@ -390,7 +390,7 @@ class HttpSource : public MapSource {
         segment_url(version, segment), parse, [this] { shared_->known_lines.forget(); });
   }
 
-  // A document that never changes: from the memory, else from the cache, else from the server.
+  // An immutable document: from memory, else from the cache, else from the server.
   template <class Document, class Parse, class OnFetched>
   Result<std::shared_ptr<const Document>> document_at(DocumentMemory<Document>& memory,
                                                       const CacheKey& key, const std::string& url,
@@ -421,7 +421,7 @@ class HttpSource : public MapSource {
     return fetched_document;
   }
 
-  // The tile index of a layer; empty if the map has the layer and the segment nothing in it.
+  // The tile index of a layer; empty if the map has the layer but the segment has no tile in it.
   Result<SharedIndex<TileEntry>> index_of(const MapVersion& version, const std::string& segment,
                                           const std::string& layer) {
     const auto document = document_of(version, segment);
@@ -429,7 +429,7 @@ class HttpSource : public MapSource {
     return index_in(version, *document, (*document)->tiles, layer);
   }
 
-  // The cells of a layer; none if the map has the layer and nothing in it.
+  // The cell index of a layer; empty if the map has the layer but no cell in it.
   Result<SharedIndex<CellEntry>> cell_index_of(const MapVersion& version,
                                                const std::string& layer) {
     const auto parse = [&](std::string_view text, const std::string& where) {

@@ -1,4 +1,4 @@
-// What an HTTP source is made of, so that tests can put in parts of their own.
+// The parts of an HTTP source, which tests replace by their own.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace milepost {
 
 struct HttpSourceParts {
   std::unique_ptr<Transport> transport;
-  // Between two attempts.
+  // Pauses between two attempts.
   std::function<void(double pause_s, const Stopped& stopped)> sleep;
-  // Seconds of a clock that nobody sets; called from any thread.
+  // Seconds of a monotonic clock; called from any thread.
   std::function<std::int64_t()> steady_s = steady_seconds;
 };
 
-// Errors: as open_http_source, which puts in libcurl and the thread's sleep.
+// Like open_http_source, which uses libcurl and sleeps the thread. Errors: the same.
 Result<std::shared_ptr<MapSource>> make_http_source(const HttpSourceSettings& settings,
                                                     HttpSourceParts parts);
 

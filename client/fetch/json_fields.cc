@@ -22,7 +22,7 @@ bool is_name(std::string_view text) {
 Json JsonFields::parsed(std::string_view text) {
   Result<Json> json = read_ordered_json(text);
   if (json && json->is_object()) return std::move(*json);
-  fail(json ? "the document is no JSON object" : "the document: " + json.error().what);
+  fail(json ? "the document is not a JSON object" : "the document: " + json.error().what);
   return Json::object();
 }
 
@@ -37,7 +37,7 @@ double JsonFields::number_at(const Json& array, std::size_t index, double min, d
 
 double JsonFields::checked(const Json& value, const std::string& name, double min, double max) {
   if (!value.is_number()) {
-    fail("\"" + name + "\" is no number");
+    fail("\"" + name + "\" is not a number");
     return min;
   }
   const double number = value.get<double>();
@@ -51,7 +51,7 @@ std::uint64_t JsonFields::whole(const Json& object, const char* key, std::uint64
   if (value.is_number_unsigned() && value.get<std::uint64_t>() <= max) {
     return value.get<std::uint64_t>();
   }
-  fail(std::string("\"") + key + "\" is no whole number in range");
+  fail(std::string("\"") + key + "\" is not an integer in range");
   return 0;
 }
 
@@ -60,21 +60,21 @@ std::string JsonFields::text(const Json& object, const char* key) {
   if (value.is_string() && is_name(value.get_ref<const std::string&>())) {
     return value.get<std::string>();
   }
-  fail(std::string("\"") + key + "\" is no name");
+  fail(std::string("\"") + key + "\" is not a valid name");
   return "";
 }
 
 const Json& JsonFields::array(const Json& object, const char* key) {
   const Json& value = field(object, key);
   if (value.is_array()) return value;
-  fail(std::string("\"") + key + "\" is no list");
+  fail(std::string("\"") + key + "\" is not a list");
   return kNoArray;
 }
 
 const Json& JsonFields::object(const Json& object, const char* key) {
   const Json& value = field(object, key);
   if (value.is_object()) return value;
-  fail(std::string("\"") + key + "\" is no object");
+  fail(std::string("\"") + key + "\" is not an object");
   return kNoObject;
 }
 

@@ -1,4 +1,5 @@
-// Reads the fields of a document that came from outside, and keeps the first thing wrong with it.
+// Reads and validates the fields of a JSON document from an untrusted source; keeps the first
+// error.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +15,29 @@ namespace milepost {
 
 using Json = nlohmann::ordered_json;
 
-// After a field that is absent, of the wrong type or out of range, all getters go on with harmless
-// values: read everything, then ask for error() once.
+// After a field that is absent, of the wrong type or out of range, all getters return harmless
+// values: read all fields, then check error() once.
 class JsonFields {
  public:
-  // `where` (a URL or a file) goes into the error.
+  // `where` (a URL or a file) is used in the error message.
   explicit JsonFields(std::string where) : where_(std::move(where)) {}
 
-  // The document of a text, which must be a JSON object within JsonLimits; an empty object
-  // otherwise.
+  // Parses a text that must be a JSON object within JsonLimits; an empty object otherwise.
   Json parsed(std::string_view text);
   // A finite number in [min, max].
   double number(const Json& object, const char* key, double min, double max);
   // The same for a member of an array.
   double number_at(const Json& array, std::size_t index, double min, double max);
   std::uint64_t whole(const Json& object, const char* key, std::uint64_t max);
-  // Not empty, of at most 255 bytes, without control characters.
+  // A string that satisfies is_name().
   std::string text(const Json& object, const char* key);
   const Json& array(const Json& object, const char* key);
   const Json& object(const Json& object, const char* key);
 
-  // Notes what is wrong, unless something was before.
+  // Records an error, unless there is one already.
   void fail(const std::string& what);
   bool ok() const { return !error_.has_value(); }
-  // REQUIRES: !ok(). Corrupt.
+  // The first error, corrupt. REQUIRES: !ok().
   const Error& error() const { return *error_; }
 
  private:
@@ -48,7 +48,7 @@ class JsonFields {
   std::optional<Error> error_;
 };
 
-// The text of a name that came from outside; fails as JsonFields::text.
+// Whether a string is a valid name: not empty, at most 255 bytes, no control characters.
 bool is_name(std::string_view text);
 
 }  // namespace milepost

@@ -1,4 +1,4 @@
-// Where the client gets its map from: a server, with a cache in between, or a map file.
+// The interface of the client's map sources: a tile server with a cache, or a map file.
 #pragma once
 
 #include <functional>
@@ -35,18 +35,18 @@ struct MapVersion {
 
 struct MapDescription {
   MapVersion version;
-  // By name. Errors: corrupt, for those whose parameters this client does not understand; walls are
-  // among them, of which it needs none.
+  // By name. Errors: corrupt, for layers whose parameters this client does not support; these
+  // include the layers of walls, whose parameters it does not need.
   std::map<std::string, Result<LayerParameters>> layers = {};
   Result<FeatureParameters> feature = FeatureParameters();  // Errors: corrupt.
-  Bounds bounds = {};                                       // of all segments' lines and all cells
+  Bounds bounds = {};                                       // around all segments and cells
 };
 
 // A segment that passes near a position.
 struct NearbySegment {
   MapVersion version;
   std::string segment;
-  double along_m = 0;     // of the nearest point of its line
+  double along_m = 0;     // arc length of the nearest point of its line
   double distance_m = 0;  // from the position to that point
   double length_m = 0;
 };
@@ -58,76 +58,78 @@ struct SegmentDescription {
   std::vector<std::string> successors;
 };
 
-// A tile as it is stored: opaque here, decoded by schema/tile.
+// A tile as stored: opaque here, decoded by schema/tile.
 struct EncodedTile {
   std::uint32_t index = 0;
   Bytes bytes;
 };
 
-// The tile of one cell of the grid as it is stored, likewise.
+// The tile of one cell of the grid, likewise.
 struct EncodedCell {
   std::uint32_t cell = 0;
   Bytes bytes;
 };
 
-// Counts since the source was made: what a run cost in transport.
+// Transport counters since the source was created.
 struct SourceCounters {
   std::uint64_t requests = 0;          // HTTP requests sent
-  std::uint64_t bytes_received = 0;    // bodies, over HTTP
-  std::uint64_t tiles_from_cache = 0;  // cells too
-  std::uint64_t tiles_fetched = 0;     // cells too
+  std::uint64_t bytes_received = 0;    // of HTTP response bodies
+  std::uint64_t tiles_from_cache = 0;  // including cells
+  std::uint64_t tiles_fetched = 0;     // including cells
   std::uint64_t cache_failures = 0;    // what the cache could not read or store (a full disk, say)
 };
 
-// Safe to use from several threads at once (the prefetcher uses it beside the localizer).
+// Safe to use from several threads at once (the prefetcher uses it concurrently with the
+// localizer).
 class MapSource {
  public:
   virtual ~MapSource() = default;
 
-  // The segments within `radius_m` of a position over the whole catalog, nearest first.
-  // An empty list is an answer. Errors: unavailable, corrupt, io.
+  // The segments of all maps within `radius_m` of a position, nearest first; may be empty. Errors:
+  // unavailable, corrupt, io.
   virtual Result<std::vector<NearbySegment>> segments_near(const GeoPoint& position,
                                                            double radius_m) = 0;
-  // The current build of every map of the catalog, by name; those that the cache knows while there
-  // is no server. Errors: unavailable, corrupt, io.
+  // The current build of every map of the catalog, ordered by name; without a server those known to
+  // the cache. Errors: unavailable, corrupt, io.
   virtual Result<std::vector<MapVersion>> maps() = 0;
   // Errors of all below: not_found, gone (the build was replaced), unavailable, corrupt, io.
   virtual Result<MapDescription> describe(const MapVersion& version) = 0;
   virtual Result<SegmentDescription> segment(const MapVersion& version,
                                              const std::string& segment) = 0;
-  // The tiles of a layer with an item whose along range meets `range`, ascending by index.
-  // Waits for what is not cached yet.
+  // The tiles of a layer with an item whose arc length range meets `range`, ascending by index.
+  // Blocks until tiles that are not cached are fetched.
   virtual Result<std::vector<EncodedTile>> tiles(const MapVersion& version,
                                                  const std::string& segment,
                                                  const std::string& layer,
                                                  const AlongRange& range) = 0;
-  // The cells of a layer that meet `box`, borders included, ascending. Waits for what is not cached
-  // yet. Errors: also invalid_input (the box is none).
+  // The cells of a layer that meet `box`, borders included, ascending. Blocks until cells that are
+  // not cached are fetched. Errors: also invalid_input (an invalid box).
   virtual Result<std::vector<EncodedCell>> cells(const MapVersion& version,
                                                  const std::string& layer, const Bounds& box) = 0;
-  // Bytes of all tiles of the layer on that segment: what a vehicle must hold for it.
+  // Total bytes of the layer's tiles on that segment: the memory that a vehicle needs for it.
   virtual Result<std::uint64_t> layer_bytes(const MapVersion& version, const std::string& segment,
                                             const std::string& layer) = 0;
   virtual SourceCounters counters() const = 0;
 
-  // For those who bring tiles into memory one by one (TileProvider):
-  // Which tiles of a layer there are on a segment, ascending.
+  // For callers that load tiles one by one (TileProvider): The tiles of a layer on a segment,
+  // ascending.
   virtual Result<std::vector<TileEntry>> tile_index(const MapVersion& version,
                                                     const std::string& segment,
                                                     const std::string& layer) = 0;
-  // A tile that no server has to be asked for; nothing where it is not there.
+  // A tile that is available without a server; none if it is not.
   virtual Result<std::optional<Bytes>> stored_tile(const MapVersion& version,
                                                    const std::string& segment,
                                                    const std::string& layer,
                                                    const TileEntry& entry) = 0;
-  // Asks once for tiles that stand side by side in the index; each is handed over as it arrives.
-  // Ends well where some have, even if not all: the rest is asked for again.
+  // Sends one request for tiles that are adjacent in the index; each is passed to the sink as it
+  // arrives. Succeeds if some arrive, even if not all: request the rest again.
   using TileSink = std::function<void(const EncodedTile& tile)>;
   virtual Attempt fetch_tiles(const MapVersion& version, const std::string& segment,
                               const std::string& layer, const std::vector<TileEntry>& tiles,
                               const TileSink& take) = 0;
-  // The same source for a caller whose calls end with `cancelled` soon after `stopped` says so; and
-  // who has a back-off of his own, if each call asks once.
+  // The same source for another caller, whose calls end with `cancelled` soon after `stopped`
+  // returns true. With Asking::once each call sends one request, for callers with a backoff of
+  // their own.
   enum class Asking { once, as_often_as_set };
   virtual std::shared_ptr<MapSource> until(Stopped stopped, Asking asking) = 0;
 };

@@ -33,7 +33,7 @@ Status check_near_query(const GeoPoint& position, double radius_m) {
   if (is_valid(position) && is_near_radius(radius_m)) return ok_status();
   return Error{ErrorCode::invalid_input, "segments near a position",
                "latitude, longitude or radius is out of range",
-               "give degrees of WGS84 and a radius of more than 0 and at most 10000 m"};
+               "use WGS84 degrees and a radius of more than 0 and at most 10000 m"};
 }
 
 }  // namespace milepost

@@ -26,11 +26,11 @@ ProviderState::ProviderState(const ProviderSettings& settings)
 void ProviderState::want(Wants wants) {
   wants_ = std::move(wants);
   std::ranges::stable_sort(wants_.tiles, {}, &Want::priority);
-  let_go();
+  release_unused();
   await_what_is_wanted();
 }
 
-// Opens an entry for each wanted segment and tile that is neither held nor awaited.
+// Creates an entry for each wanted segment and tile that is neither held nor awaited.
 void ProviderState::await_what_is_wanted() {
   for (const NearbySegment& near : around_) segments_[{near.version, near.segment}];
   for (const Want& want : wants_.tiles) {
@@ -44,7 +44,7 @@ void ProviderState::await_what_is_wanted() {
   }
 }
 
-void ProviderState::let_go() {
+void ProviderState::release_unused() {
   bool changed = false;
   for (auto& entry_of_segment : segments_) {
     const SegmentKey& key = entry_of_segment.first;
@@ -121,7 +121,8 @@ std::optional<FetchTask> ProviderState::next_fetch(SteadyTime now) const {
   return std::nullopt;
 }
 
-// Of the surroundings, the segments that may be the nearest, as far as they were told.
+// The segments of the surroundings that may be the nearest, by the distances listed when they were
+// fetched.
 std::vector<SegmentKey> ProviderState::documents_wanted() const {
   if (!wants_.around) return {};
   const double moved_m = geodesic_distance_m(known_around_.position, wants_.around->position);
@@ -141,8 +142,7 @@ std::vector<SegmentKey> ProviderState::documents_wanted() const {
   return keys;
 }
 
-// Tiles to fetch that stand side by side; none while some may be stored, so that the rest comes in
-// one request.
+// Adjacent tiles to fetch; none while some may be stored, so that the rest comes in one request.
 std::vector<TileEntry> ProviderState::first_run(const Segment& segment, const AlongRange& range,
                                                 SteadyTime now) const {
   std::vector<TileEntry> run;
@@ -173,7 +173,7 @@ std::optional<SteadyTime> ProviderState::next_due(SteadyTime now) const {
 }
 
 void ProviderState::take(const AskAround& task, std::vector<NearbySegment> near, SteadyTime now) {
-  // Who told a build that is gone does not know yet: he is asked again.
+  // A source that listed a build that is gone is out of date: it is asked again.
   std::optional<Error> old;
   std::erase_if(near, [&](const NearbySegment& segment) {
     const auto gone = gone_.find(segment.version);
@@ -189,7 +189,7 @@ void ProviderState::take(const AskAround& task, std::vector<NearbySegment> near,
     around_failure_ = old;
     around_backoff_.failed(now, 0, settings_.backoff, random_);
   }
-  let_go();
+  release_unused();
   await_what_is_wanted();
   publish();
 }
@@ -287,7 +287,7 @@ void ProviderState::succeeded(const FetchTask& task) {
   }
 }
 
-// The build is no more: its segments are not what they were, and the surroundings are asked anew.
+// The build was replaced: discards its segments and requests the surroundings again.
 void ProviderState::give_up(const MapVersion& version, const Error& error) {
   gone_.insert_or_assign(version, error);
   for (auto& [key, segment] : segments_) {
@@ -300,7 +300,7 @@ void ProviderState::give_up(const MapVersion& version, const Error& error) {
   publish();
 }
 
-// Not for that nothing was asked since.
+// Measured up to the last failure: time without requests does not count.
 bool ProviderState::is_away() const {
   return failing_since_ && seconds_between(*failing_since_, failed_at_) > settings_.away_s;
 }
@@ -327,7 +327,7 @@ bool ProviderState::is_settled() const {
          std::ranges::all_of(wants_.tiles, [&](const Want& want) { return is_settled(want); });
 }
 
-// Segments that did not change are shared with what was held before.
+// Segments that have not changed are shared with the previous snapshot.
 void ProviderState::publish() {
   auto held = std::make_shared<HeldMap>();
   for (auto& [key, segment] : segments_) {

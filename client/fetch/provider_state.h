@@ -1,5 +1,5 @@
-// What a tile provider knows: what is wanted, what is held, what is missing, and what to do next.
-// No threads, no I/O and no clock: its times are told.
+// The state machine of a tile provider: what is wanted, held and missing, and what to fetch next.
+// No threads, no I/O and no clock: times are passed in.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,15 @@
 namespace milepost {
 
 struct ProviderSettings {
-  double surroundings_margin_m = 100;  // known beyond what is wanted, so that few ask for it
+  double surroundings_margin_m = 100;  // requested beyond what is wanted, to save requests
   std::size_t max_segments = 64;       // of the surroundings whose lines are read: the nearest
-  double kept_m = 200;                 // tiles so far beyond what is wanted are held still
+  double kept_m = 200;                 // tiles up to this distance from what is wanted stay held
   BackoffSettings backoff;
-  double slow_s = 2;  // a request that fails after longer speaks of the network, not of a tile
-  double away_s = 4;  // the network counts as away when it has failed for so long
+  double slow_s = 2;  // a failure after longer is attributed to the network, not a tile
+  double away_s = 4;  // the network counts as unavailable after failing for this long
 };
 
-// A tile that may lie in the cache or the file.
+// A tile that may be in the cache or the map file.
 struct StoredTile {
   std::shared_ptr<const SegmentLayer> of;
   TileEntry entry;
@@ -41,14 +41,14 @@ struct ReadDocuments {
 };
 struct FetchTiles {
   std::shared_ptr<const SegmentLayer> of;
-  std::vector<TileEntry> tiles;  // side by side in the index
+  std::vector<TileEntry> tiles;  // adjacent in the index
 };
 using FetchTask = std::variant<AskAround, ReadDocuments, FetchTiles>;
 
-// How a request failed.
+// A failed request.
 struct FetchFailure {
   Error error;
-  double retry_after_s = 0;  // that a busy server asked for
+  double retry_after_s = 0;  // requested by a busy server
   SteadyTime began;
   SteadyTime ended;
 };
@@ -58,43 +58,44 @@ class ProviderState {
  public:
   explicit ProviderState(const ProviderSettings& settings);
 
-  // Replaces what was wanted; lets go of what is far from it.
+  // Replaces what is wanted; discards what is far from it.
   void want(Wants wants);
   const Wants& wanted() const { return wants_; }  // by priority
-  // What is held now, the same object until something changes.
+  // The current snapshot; the same object until something changes.
   std::shared_ptr<const HeldMap> held() const { return held_; }
 
-  // The next thing to read, or to ask for; nothing where there is none. By priority.
+  // The next tile to read, or request to send, by priority; none if there is none.
   std::optional<StoredTile> next_stored() const;
   std::optional<FetchTask> next_fetch(SteadyTime now) const;
-  // The first time after `now` at which next_fetch() may have another answer by itself.
+  // The earliest time after `now` at which next_fetch() may return something else without further
+  // events.
   std::optional<SteadyTime> next_due(SteadyTime now) const;
 
-  // What became of these. Of tiles that are not wanted any more nothing is kept.
+  // The outcomes of these. Results for tiles that are no longer wanted are discarded.
   void take(const AskAround& task, std::vector<NearbySegment> near, SteadyTime now);
   void take(std::shared_ptr<const SegmentLayer> layer);
   void take(const SegmentKey& key, std::uint32_t index, std::shared_ptr<const DecodedTile> tile);
   void is_not_stored(const SegmentKey& key, std::uint32_t index);
-  // It cannot be used, wherever it came from.
+  // The tile cannot be decoded or read, wherever it came from.
   void is_unusable(const SegmentKey& key, std::uint32_t index, Error error, SteadyTime now);
   void failed(const FetchTask& task, const FetchFailure& failure);
   void succeeded(const FetchTask& task);
 
-  // Whether all that is wanted is held, or was asked for in vain.
+  // Whether everything wanted is held, or its request has failed.
   bool is_settled() const;
 
  private:
   struct Awaited {
     bool may_be_stored = true;
-    bool is_hopeless = false;  // it came as it is meant to be, and cannot be used
+    bool is_hopeless = false;  // received as published, but not usable
     Backoff backoff;
   };
   struct Segment {
     HeldSegment held;
     Backoff documents;
     std::map<std::uint32_t, Awaited> awaited;
-    std::size_t longest_run = 1000;  // tiles asked for at once: fewer after that failed
-    std::shared_ptr<const HeldSegment> published;  // what is held, unless it changed since
+    std::size_t longest_run = 1000;                // tiles per request: fewer after a failure
+    std::shared_ptr<const HeldSegment> published;  // snapshot of `held`; null if it has changed
   };
 
   bool knows_surroundings() const;
@@ -104,7 +105,7 @@ class ProviderState {
   std::vector<TileEntry> first_run(const Segment& segment, const AlongRange& range,
                                    SteadyTime now) const;
   void await_what_is_wanted();
-  void let_go();
+  void release_unused();
   void give_up(const MapVersion& version, const Error& error);
   void network_failed(const FetchFailure& failure);
   void publish();
@@ -117,9 +118,9 @@ class ProviderState {
   std::optional<Error> around_failure_;
   Backoff around_backoff_;
   Backoff network_;
-  std::optional<SteadyTime> failing_since_;  // the network ...
-  SteadyTime failed_at_;                     // ... the last time
-  std::map<MapVersion, Error> gone_;         // builds that are no more
+  std::optional<SteadyTime> failing_since_;  // the network, ...
+  SteadyTime failed_at_;                     // ... most recently
+  std::map<MapVersion, Error> gone_;         // builds that were replaced
   std::shared_ptr<const HeldMap> held_ = std::make_shared<const HeldMap>();
   std::mt19937 random_;
 };

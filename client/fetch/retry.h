@@ -1,4 +1,4 @@
-// Trying again what may succeed later.
+// Retries of operations that may succeed later.
 #pragma once
 
 #include <functional>
@@ -9,24 +9,24 @@
 namespace milepost {
 
 struct RetryPolicy {
-  int attempts = 3;             // >= 1, the first one included
-  double first_pause_s = 0.25;  // then twice as long each time
-  double longest_pause_s = 10;  // also where a server asks for more
+  int attempts = 3;             // >= 1, including the first one
+  double first_pause_s = 0.25;  // doubled after each attempt
+  double longest_pause_s = 10;  // upper bound, also of a server's Retry-After
   std::function<void(double pause_s, const Stopped& stopped)> sleep;
 };
 
-// How one attempt ended.
+// The outcome of one attempt.
 struct Attempt {
   Status status;
-  double retry_after_s = 0;  // the pause that a busy server asked for; 0 if it asked for none
+  double retry_after_s = 0;  // the pause that a busy server requested; 0 if none
 };
 
-// Runs `attempt` until it ends otherwise than with `unavailable`, or the attempts are used up, or
-// it is stopped, and returns how the last one ended.
+// Runs `attempt` until it returns something other than `unavailable`, the attempts are used up, or
+// it is stopped. Returns the status of the last attempt.
 Status with_retries(const RetryPolicy& policy, const Stopped& stopped,
                     const std::function<Attempt()>& attempt);
 
-// Pauses the thread, but no longer than until `stopped` says so.
+// Pauses the thread, at most until `stopped` returns true.
 void sleep_until_stopped(double pause_s, const Stopped& stopped);
 
 }  // namespace milepost

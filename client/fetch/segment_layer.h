@@ -1,4 +1,4 @@
-// One layer of one segment, as the map's documents describe it.
+// One layer of one segment as described by the map's documents.
 #pragma once
 
 #include <memory>
@@ -15,9 +15,9 @@
 
 namespace milepost {
 
-// What holds for every segment of a build.
+// The parameters common to all segments of a build.
 struct BuildLayer {
-  FeatureParameters feature;  // that the map's descriptors were made with
+  FeatureParameters feature;  // of the map's descriptors
   LayerParameters parameters;
 };
 

@@ -1,4 +1,4 @@
-// Requests to a server: counted, and tried again where that may help.
+// Requests to a server, counted and retried where that may help.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace milepost {
 
-// Reads a document. An error that is corrupt says that the document is not a milepost server's.
+// Parses a document. The error code corrupt means that it does not come from a milepost server.
 using DocumentReader = std::function<Status(const std::string& text)>;
 
 // Safe to use from several threads at once.
@@ -24,8 +24,8 @@ class ServerRequests {
   // One request, as Transport::get.
   HttpAnswer get(const std::string& url, std::uint64_t limit_bytes, const BodySink& sink,
                  const Stopped& stopped);
-  // One request for a document of at most 64 MiB. Errors: those of HttpAnswer but corrupt, which is
-  // foreign_answer, also for what the reader calls so; and the reader's others.
+  // One request for a document of at most 64 MiB. Errors: those of HttpAnswer and of the reader,
+  // with corrupt replaced by foreign_answer.
   Attempt try_document(const std::string& url, const DocumentReader& read, const Stopped& stopped);
 
   const RetryPolicy& retry() const { return retry_; }

@@ -1,4 +1,4 @@
-// How long work is asked to end.
+// Cancellation of long operations.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace milepost {
 
-// Asked every now and then by what may take long, from any thread: true ends it soon, with
-// `cancelled`. An empty one never does.
+// Polled by long operations, from any thread: once it returns true, the operation ends soon with
+// `cancelled`. An empty function never stops anything.
 using Stopped = std::function<bool()>;
 
 inline bool is_stopped(const Stopped& stopped) { return stopped && stopped(); }

@@ -37,13 +37,13 @@ Status TileCutter::complete_tile() {
 
 Status TileCutter::finish() const {
   if (received_ == expected_.size()) return ok_status();
-  return wrong("the answer ends before the end of tile " +
+  return wrong("the response ends before the end of tile " +
                std::to_string(expected_[received_].number));
 }
 
 Error TileCutter::wrong(const std::string& what) const {
   return {ErrorCode::corrupt, where_, what,
-          "verify the server's map and check what lies between here and the server"};
+          "verify the server's map and check proxies between the client and the server"};
 }
 
 }  // namespace milepost

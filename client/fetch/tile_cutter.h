@@ -1,4 +1,4 @@
-// Cuts an answer into the encoded tiles that it must consist of, while it arrives.
+// Splits a response stream into the encoded tiles that it must consist of.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace milepost {
 
-// An encoded tile that an index names: a tile of a segment, or a cell of an area.
+// An encoded tile listed by an index: a tile of a segment, or of a cell.
 struct ExpectedTile {
   std::uint32_t number = 0;  // the tile's index, or the cell's number
   std::uint64_t bytes = 0;
@@ -32,18 +32,19 @@ std::vector<ExpectedTile> expected_tiles(const std::vector<Entry>& entries) {
   return tiles;
 }
 
-// The index says which tiles must come, how long each is and what its digest is, so nothing else
-// is believed: not the order, not the count, not the bytes.
+// The index defines the tiles, their sizes and their digests; the order, the count and every byte
+// of the response are verified against it.
 class TileCutter {
  public:
   using Receiver = std::function<void(std::uint32_t number, Bytes tile)>;
 
-  // `where` (the URL) goes into errors. `receive` is called once a tile, whole and checked.
+  // `where` (the URL) is used in error messages. `receive` is called once per tile, after the tile
+  // is complete and verified.
   TileCutter(std::string where, std::vector<ExpectedTile> expected, Receiver receive);
 
-  // The next piece of the answer. Errors: corrupt, naming the tile that is wrong.
+  // Takes the next piece of the response. Errors: corrupt, naming the tile that is wrong.
   Status take(ByteView piece);
-  // The answer has ended, as the server says. Errors: corrupt, naming the tile that is missing.
+  // To be called at the end of the response. Errors: corrupt, naming the tile that is missing.
   Status finish() const;
   std::size_t received() const { return received_; }  // tiles
 

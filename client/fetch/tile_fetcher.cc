@@ -62,7 +62,7 @@ Attempt TileFetcher::fetch_once(const CacheKey& layer_key, const CheckedRequest&
       request.url, bytes_of(request.expected), [&](ByteView piece) { return cutter.take(piece); },
       stopped);
   if (answer.status.ok()) return {cutter.finish()};
-  // Whole tiles of an answer that broke off are kept, and the next request asks for the rest.
+  // Complete tiles of an interrupted response are kept; the next request fetches the rest.
   if (advanced && answer.status.error().code == ErrorCode::unavailable) return {};
   return {std::move(answer.status), answer.retry_after_s};
 }

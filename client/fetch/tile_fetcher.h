@@ -1,4 +1,4 @@
-// Encoded tiles from the cache and, where it lacks them, from the server.
+// Reads encoded tiles from the cache and, if it lacks them, from the server.
 #pragma once
 
 #include <atomic>
@@ -16,37 +16,37 @@
 
 namespace milepost {
 
-// One request, and what its answer must consist of.
+// One request and the tiles that its response must consist of.
 struct CheckedRequest {
   std::string url;
   std::vector<ExpectedTile> expected;
 };
 
-// Safe to use from several threads at once. Two that miss the same tile at the same time may both
-// ask for it.
+// Safe to use from several threads at once. Two threads that miss the same tile at the same time
+// may both request it.
 class TileFetcher {
  public:
-  // The request that brings some of the missing tiles, which are never none.
+  // Returns the request for some of the missing tiles; `missing` is never empty.
   using RequestFor = std::function<CheckedRequest(const std::set<std::uint32_t>& missing)>;
 
-  // Both outlive the fetcher.
+  // REQUIRES: both outlive the fetcher.
   TileFetcher(ServerRequests& requests, TileCache& cache) : requests_(requests), cache_(cache) {}
 
-  // The wanted tiles, by number. `layer_key` is theirs in the cache, but for the number. Whole
-  // tiles of an answer that breaks off are kept, and the rest is asked for again.
-  // Errors: those of HttpAnswer; corrupt (an answer of other tiles than `request_for` expects).
+  // The wanted tiles by number. `layer_key` is their cache key except for the number. Complete
+  // tiles of an interrupted response are kept and the rest is requested again. Errors: those of
+  // HttpAnswer; corrupt (a response with other tiles than `request_for` expects).
   Result<std::map<std::uint32_t, Bytes>> fetch(const CacheKey& layer_key,
                                                const std::vector<ExpectedTile>& wanted,
                                                const RequestFor& request_for,
                                                const Stopped& stopped);
 
-  // The same of one request, from the server alone; each tile is handed over as it arrives, also
-  // one that only comes along. The sink says whether it was missing: an answer that breaks off
-  // after it brought one of those ends well.
+  // The same with a single request, from the server only. Each tile is passed to the sink as it
+  // arrives, including tiles that are only part of the range. The sink returns whether the tile was
+  // missing: an interrupted response that delivered a missing tile counts as success.
   using TileSink = std::function<bool(std::uint32_t number, const Bytes& tile)>;
   Attempt fetch_once(const CacheKey& layer_key, const CheckedRequest& request, const TileSink& take,
                      const Stopped& stopped);
-  // A tile of the cache; nothing where it is not there.
+  // A tile from the cache; none if it is not there.
   std::optional<Bytes> find(const CacheKey& layer_key, const ExpectedTile& tile);
 
   std::uint64_t from_cache() const { return from_cache_; }

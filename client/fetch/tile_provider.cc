@@ -47,8 +47,8 @@ struct TileProvider::Impl {
 
   const std::string layer;
   std::atomic<bool> stopping = false;
-  const std::shared_ptr<MapSource> source;  // whose calls end when this does
-  // Of the fetcher's thread alone.
+  const std::shared_ptr<MapSource> source;  // whose calls are cancelled by the destructor
+  // Used by the fetcher thread only.
   std::map<MapVersion, std::shared_ptr<const BuildLayer>> parameters;
 
   mutable std::mutex mutex;  // guards `state`; never held over I/O or decoding
@@ -188,7 +188,7 @@ Result<std::shared_ptr<const BuildLayer>> TileProvider::Impl::parameters_of(
   return read;
 }
 
-// Decodes without the lock.
+// Decodes without holding the lock.
 void TileProvider::Impl::take(const SegmentLayer& of, std::uint32_t index, ByteView encoded) {
   Result<DecodedTile> tile = decode_tile_of(of.parameters().items, encoded);
   std::shared_ptr<const DecodedTile> finished;

@@ -1,4 +1,5 @@
-// Brings what a vehicle wants of the map into memory, beside the frames: no frame ever waits.
+// Loads the map data that a vehicle wants into memory, concurrently with the frames: no frame
+// waits.
 #pragma once
 
 #include <memory>
@@ -11,29 +12,29 @@
 
 namespace milepost {
 
-// Two threads of its own: one reads the cache or the file, one asks the network, so that what is
-// stored never waits for a server. What fails is asked for again, later each time. All members may
-// be called from any thread; none waits for a thread that works, but wait_for_change().
+// Has two threads: one reads the cache or the map file, one requests from the network, so that
+// stored tiles never wait for a server. Failed requests are repeated with a backoff. All members
+// may be called from any thread; only wait_for_change() waits for the threads.
 class TileProvider {
  public:
-  // Of one layer of the source's maps.
+  // For one layer of the source's maps.
   TileProvider(const std::shared_ptr<MapSource>& source, std::string layer,
                const ProviderSettings& settings = {});
-  // Ends within a second, whatever the source does.
+  // Returns within a second, even if the source hangs.
   ~TileProvider();
   TileProvider(const TileProvider&) = delete;
   TileProvider& operator=(const TileProvider&) = delete;
 
-  // Replaces what was wanted.
+  // Replaces what is wanted.
   void want(Wants wants);
   Wants wanted() const;
-  // What has arrived by now.
+  // The data that has arrived so far.
   std::shared_ptr<const HeldMap> held() const;
 
-  // Whether all that is wanted is held, or was asked for in vain.
+  // Whether everything wanted is held, or its request has failed.
   bool is_settled() const;
-  // For replays of recorded drives: waits until it is settled, or until something has arrived since
-  // `before`, for which more may be wanted, or until `deadline`.
+  // For replays of recorded drives: blocks until settled, until something has arrived since
+  // `before` (for which more may be wanted), or until `deadline`.
   void wait_for_change(const std::shared_ptr<const HeldMap>& before, SteadyTime deadline) const;
 
  private:

@@ -15,8 +15,8 @@ std::vector<TileEntry> first_run(const std::vector<TileEntry>& index,
   return {begin, std::find_if_not(begin, index.end(), is_missing)};
 }
 
-// The shortest range that meets every tile of the run. Tiles overlap: where one position lies in
-// all of them, the range is that position, taken where the fewest other bytes come along.
+// The shortest range that meets every tile of the run. Tiles overlap: if one position lies in all
+// of them, the range is the position at which the fewest other bytes are included.
 AlongRange narrowest_range(const std::vector<TileEntry>& index, const std::vector<TileEntry>& run) {
   const double first_end_m = std::ranges::min_element(run, {}, [](const TileEntry& e) {
                                return e.along.to_m;

@@ -1,4 +1,4 @@
-// Which one request brings missing tiles with as little besides as possible.
+// Selects the request that brings missing tiles with as few others as possible.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 namespace milepost {
 
 struct TileRequest {
-  std::optional<AlongRange> range;  // none: the one tile by its own URL
-  std::vector<TileEntry> expected;  // what the answer must consist of, in this order
+  std::optional<AlongRange> range;  // none: a single tile, requested by its own URL
+  std::vector<TileEntry> expected;  // the tiles that the response must consist of, in this order
 };
 
-// The request for the first run of missing tiles that stand side by side in `index`.
-// REQUIRES: `missing` (tile indices) is not empty and all in `index`, which is ascending.
+// The request for the first run of missing tiles that are adjacent in `index`. REQUIRES: `missing`
+// (tile indices) is not empty and contained in `index`, which is ascending.
 TileRequest request_for_first_run(const std::vector<TileEntry>& index,
                                   const std::set<std::uint32_t>& missing);
 

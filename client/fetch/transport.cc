@@ -29,7 +29,7 @@ struct MultiCloser {
   void operator()(CURLM* handle) const { curl_multi_cleanup(handle); }
 };
 
-// What makes one request after the other. The connections belong to `multi`, which must outlive
+// A libcurl handle for consecutive requests. The connections belong to `multi`, which must outlive
 // `easy`.
 struct Handle {
   std::unique_ptr<CURLM, MultiCloser> multi;
@@ -47,7 +47,7 @@ void initialize_curl_once() {
   static_cast<void>(initialized);
 }
 
-// Handles at rest, each with its open connections.
+// Idle handles, each with its open connections.
 class HandlePool {
  public:
   Handle take() {
@@ -68,14 +68,14 @@ class HandlePool {
   std::vector<Handle> resting_;
 };
 
-// What libcurl's callback needs and fills while an answer arrives.
+// The state of libcurl's callback while a response arrives.
 struct Reception {
   CURL* handle = nullptr;
   const BodySink* sink = nullptr;
   std::uint64_t limit_bytes = 0;
   std::uint64_t received_bytes = 0;
-  std::string refusal;           // the start of a body that is not for the sink
-  std::optional<Error> refused;  // why we ended the request ourselves
+  std::string refusal;           // the start of a body that is not passed to the sink
+  std::optional<Error> refused;  // why the callback aborted the request
 };
 
 long http_status(CURL* handle) {
@@ -84,7 +84,7 @@ long http_status(CURL* handle) {
   return status;
 }
 
-// The media type of the answer in lower case, without parameters; empty if it has none.
+// The media type of the response in lower case, without parameters; empty if it has none.
 std::string media_type(CURL* handle) {
   const char* header = nullptr;
   curl_easy_getinfo(handle, CURLINFO_CONTENT_TYPE, &header);
@@ -97,8 +97,8 @@ std::string media_type(CURL* handle) {
   return type;
 }
 
-// Whether the answer, by its header, is the document or the tiles that were asked for. A page of
-// HTML is none, whatever its status.
+// Whether the response header announces the requested document or tiles. An HTML page never counts,
+// whatever its status.
 bool is_for_the_sink(CURL* handle) {
   const std::string type = media_type(handle);
   return http_status(handle) == 200 && type != "text/html" && type != "application/xhtml+xml";
@@ -109,11 +109,11 @@ bool take_body(Reception& reception, ByteView piece) {
   if (!is_for_the_sink(reception.handle)) {
     const std::size_t room = kMaxRefusalBytes - reception.refusal.size();
     reception.refusal += as_text(piece.first(std::min(room, piece.size())));
-    return piece.size() <= room;  // more than that says no more than its status
+    return piece.size() <= room;  // the rest of a longer body adds nothing to the status
   }
   if (reception.received_bytes > reception.limit_bytes) {
     reception.refused = Error{ErrorCode::corrupt, "",
-                              "the answer is longer than the " +
+                              "the response is longer than the " +
                                   std::to_string(reception.limit_bytes) + " bytes expected",
                               "check that the URL is a milepost server's"};
     return false;
@@ -128,7 +128,7 @@ std::size_t on_body(char* data, std::size_t /*always_one*/, std::size_t size, vo
   return taken ? size : CURL_WRITEFUNC_ERROR;
 }
 
-// ": DETAIL" of a problem; empty if it has none.
+// ": DETAIL" of a problem document; empty if it has none.
 std::string detail_of(const nlohmann::json& problem) {
   const auto detail = problem.find("detail");
   if (detail == problem.end() || !detail->is_string()) return "";
@@ -138,8 +138,8 @@ std::string detail_of(const nlohmann::json& problem) {
   return text;
 }
 
-// Of a problem with a status that only says that something is unavailable, or that no milepost
-// server gives, there is nothing to tell.
+// The error for a problem document; none if the status only means that something is unavailable, or
+// is never sent by a milepost server.
 std::optional<Error> error_of_problem(const std::string& url, long status,
                                       const nlohmann::json& problem) {
   const std::string detail = detail_of(problem);
@@ -151,20 +151,20 @@ std::optional<Error> error_of_problem(const std::string& url, long status,
                    "the map was rebuilt and this build of it is gone" + detail,
                    "ask for the map's current build"};
     case 400:
-      return Error{ErrorCode::invalid_input, url, "the server calls it wrong" + detail, ""};
+      return Error{ErrorCode::invalid_input, url, "the server rejects the request" + detail, ""};
     case 405:
     case 413:
     case 414:
     case 431:
       return Error{ErrorCode::invalid_input, url,
-                   "the server does not answer it, HTTP status " + std::to_string(status) + detail,
+                   "the server rejects the request, HTTP status " + std::to_string(status) + detail,
                    "check that the URL is a milepost server's"};
     default:
       return std::nullopt;
   }
 }
 
-// Of an answer that was not for the sink.
+// The error for a response that was not passed to the sink.
 Error error_of_refusal(CURL* handle, const std::string& url, const std::string& body) {
   const long status = http_status(handle);
   const std::string type = media_type(handle);
@@ -174,7 +174,7 @@ Error error_of_refusal(CURL* handle, const std::string& url, const std::string& 
     if (const auto error = error_of_problem(url, status, *problem)) return *error;
   }
   const std::string number = "HTTP status " + std::to_string(status);
-  if (status == 429 || (status >= 500 && status != 511)) {  // 511: the network wants a login
+  if (status == 429 || (status >= 500 && status != 511)) {  // 511: the network requires a login
     return {ErrorCode::unavailable, url,
             "the server is unavailable, " + number + (is_problem ? detail_of(*problem) : ""),
             "try again later"};
@@ -187,7 +187,7 @@ struct UrlCloser {
 };
 using Url = std::unique_ptr<CURLU, UrlCloser>;
 
-// Null if it is none.
+// Null if the text is not a valid URL.
 Url parsed_url(const std::string& text) {
   Url url(curl_url());
   if (curl_url_set(url.get(), CURLUPART_URL, text.c_str(), 0) != CURLUE_OK) url.reset();
@@ -211,7 +211,7 @@ Error error_of_curl(const std::string& url, CURLcode code, const char* message) 
   const std::string what = message[0] != '\0' ? message : curl_easy_strerror(code);
   switch (code) {
     case CURLE_URL_MALFORMAT:
-    case CURLE_UNSUPPORTED_PROTOCOL: {  // also: an answer that is not HTTP
+    case CURLE_UNSUPPORTED_PROTOCOL: {  // also a response that is not HTTP
       const Url asked = parsed_url(url);
       if (asked != nullptr && is_http(asked.get())) return foreign_answer(url, what);
       return {ErrorCode::invalid_input, url, what, "check that the URL is a milepost server's"};
@@ -234,7 +234,7 @@ class CurlTransport : public Transport {
                  const Stopped& stopped) override {
     Handle handle = pool_.take();
     if (!handle) {
-      return {Error{ErrorCode::io, url, "libcurl cannot be started", "free some memory"}};
+      return {Error{ErrorCode::io, url, "libcurl cannot be initialized", "free some memory"}};
     }
     HttpAnswer answer = perform(handle, url, body_limit_bytes, sink, stopped);
     pool_.give_back(std::move(handle));
@@ -258,11 +258,11 @@ class CurlTransport : public Transport {
     answer.retry_after_s = retry_after_s(handle);
     answer.status =
         code ? status_of(handle, url, reception, *code, message.data()) : cancelled(url);
-    curl_easy_reset(handle);  // forgets pointers into this call; connections stay open
+    curl_easy_reset(handle);  // clears pointers to locals; connections stay open
     return answer;
   }
 
-  // Nothing where it was stopped.
+  // None if it was stopped.
   static std::optional<CURLcode> run(const Handle& connection, const Stopped& stopped) {
     constexpr int kLongestWaitMs = 50;
     CURLM* const multi = connection.multi.get();
@@ -292,7 +292,7 @@ class CurlTransport : public Transport {
       if (error.where.empty()) error.where = url;
       return error;
     }
-    // CURLE_WRITE_ERROR: the answer was cut off, since it is too long for a refusal.
+    // CURLE_WRITE_ERROR: the callback aborted a body that is too long for an error response.
     const bool answered = code == CURLE_OK || code == CURLE_WRITE_ERROR;
     if (answered && !is_for_the_sink(handle)) {
       return error_of_refusal(handle, url, reception.refusal);
@@ -305,8 +305,8 @@ class CurlTransport : public Transport {
                    char* message) const {
     const std::string user_agent = std::string("milepost/") + kVersion;
     curl_easy_setopt(handle, CURLOPT_URL, url.c_str());
-    curl_easy_setopt(handle, CURLOPT_NOSIGNAL, 1L);    // timeouts without signals: threads
-    curl_easy_setopt(handle, CURLOPT_QUICK_EXIT, 1L);  // does not wait for a name to be found
+    curl_easy_setopt(handle, CURLOPT_NOSIGNAL, 1L);    // no signals for timeouts: several threads
+    curl_easy_setopt(handle, CURLOPT_QUICK_EXIT, 1L);  // does not wait for name resolution
     curl_easy_setopt(handle, CURLOPT_USERAGENT, user_agent.c_str());  // copied
     curl_easy_setopt(handle, CURLOPT_ERRORBUFFER, message);
     curl_easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https");  // redirects too
@@ -340,7 +340,7 @@ std::unique_ptr<Transport> make_curl_transport(const TransportSettings& settings
 
 Error foreign_answer(const std::string& url, const std::string& what) {
   return {ErrorCode::unavailable, url,
-          "no milepost server answered but something else, perhaps a login page of the network: " +
+          "something other than a milepost server answered, perhaps a login page of the network: " +
               what,
           "log in to the network, or check the server's URL"};
 }
@@ -351,7 +351,7 @@ Result<std::string> checked_server_url(const std::string& base) {
                      url_part(url.get(), CURLUPART_QUERY).empty() &&
                      url_part(url.get(), CURLUPART_FRAGMENT).empty();
   if (!plain) {
-    return Error{ErrorCode::invalid_input, base, "this is not a server's URL",
+    return Error{ErrorCode::invalid_input, base, "this is not a valid server URL",
                  "give it as http://HOST:PORT"};
   }
   return base.substr(0, base.find_last_not_of('/') + 1);

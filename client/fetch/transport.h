@@ -1,4 +1,4 @@
-// HTTP GET: the one thing the client asks of the network.
+// HTTP GET, the client's only use of the network.
 #pragma once
 
 #include <cstdint>
@@ -12,53 +12,55 @@
 
 namespace milepost {
 
-// Takes the body of a successful answer piece by piece. An error ends the request with that error.
+// Receives the body of a successful response piece by piece. An error aborts the request with that
+// error.
 using BodySink = std::function<Status(ByteView piece)>;
 
-// How a request ended.
+// The outcome of a request.
 struct HttpAnswer {
-  // ok: status 200, no page of HTML, and the whole body went to the sink. Otherwise the error names
-  // the URL: not_found (404), gone (410) and invalid_input (400 and other refusals), each only
-  // where the body is application/problem+json, as a milepost server's is; invalid_input (a URL
-  // that is none); corrupt (a body beyond the limit); cancelled; unavailable (no connection, a
-  // timeout, a body that breaks off, 429, 5xx, and foreign_answer for all else), or what the sink
-  // returned.
+  // ok: status 200, not an HTML page, and the whole body was passed to the sink. Otherwise the
+  // error names the URL: not_found (404), gone (410) and invalid_input (400 and other refusals),
+  // each only if the body is application/problem+json, as a milepost server sends it; invalid_input
+  // (an invalid URL); corrupt (a body beyond the limit); cancelled; unavailable (no connection, a
+  // timeout, an interrupted body, 429, 5xx, and foreign_answer for everything else); or the error
+  // of the sink.
   Status status;
-  double retry_after_s = 0;      // what a busy server asked for; 0 if it asked for nothing
-  std::uint64_t body_bytes = 0;  // received, also of an answer that broke off
+  double retry_after_s = 0;      // requested by a busy server; 0 if not
+  std::uint64_t body_bytes = 0;  // received, also of an interrupted response
 };
 
-// The error where something else than a milepost server answered: a network's login page, a proxy,
-// another program. As good as no server, so it is unavailable. `what`: how that is known.
+// The error for a response from something other than a milepost server: a network's login page, a
+// proxy, another program. Equivalent to no server, so its code is unavailable. `what`: how that was
+// detected.
 Error foreign_answer(const std::string& url, const std::string& what);
 
 // All members are safe to call from several threads at once.
 class Transport {
  public:
   virtual ~Transport() = default;
-  // Makes one request. `body_limit_bytes` bounds what the sink may be given; once `stopped` says
-  // so, it ends within a tenth of a second, cancelled.
+  // Sends one request. At most `body_limit_bytes` are passed to the sink. Once `stopped` returns
+  // true, the call ends within 0.1 s with `cancelled`.
   virtual HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes,
                          const BodySink& sink, const Stopped& stopped) = 0;
 };
 
 struct TransportSettings {
   double connect_timeout_s = 5;
-  // Ends an answer that brings less than least_bytes_per_s over so long; rounded up to whole
-  // seconds.
+  // Aborts a response with less than least_bytes_per_s over this time; rounded up to whole seconds.
   double stall_timeout_s = 10;
   double least_bytes_per_s = 200;
 };
 
-// libcurl: keeps connections open between requests, one handle a request under way; follows up to
-// five redirects, http and https only; takes proxies from the environment as curl does.
+// A transport by libcurl: keeps connections open between requests, with one handle per concurrent
+// request; follows up to five redirects, http and https only; uses the proxies in the environment
+// variables that curl uses.
 std::unique_ptr<Transport> make_curl_transport(const TransportSettings& settings);
 
-// `base` (http or https, a host, perhaps a path) without slashes at its end.
-// Errors: invalid_input.
+// `base` (http or https, a host, optionally a path) without trailing slashes. Errors:
+// invalid_input.
 Result<std::string> checked_server_url(const std::string& base);
 
-// One segment of a URL's path, with everything escaped that is not plain.
+// Percent-encodes one segment of a URL path.
 std::string escaped_for_url(const std::string& text);
 
 }  // namespace milepost

@@ -1,4 +1,4 @@
-// What a vehicle wants to hold of the map.
+// The map data that a vehicle wants to hold.
 #pragma once
 
 #include <optional>
@@ -27,13 +27,13 @@ struct Want {
   int priority = 0;  // the lowest first
 };
 
-// The lines that pass near a position.
+// The segments that pass within a radius of a position.
 struct Surroundings {
   GeoPoint position;
   double radius_m = 0;
 };
 
-// All at once: what is no longer in it is no longer wanted.
+// The complete set: what is not in it is no longer wanted.
 struct Wants {
   std::optional<Surroundings> around;
   std::vector<Want> tiles;

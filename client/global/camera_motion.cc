@@ -9,10 +9,11 @@
 namespace milepost {
 namespace {
 
-// Turns about x, y, z, and of the way about x and y, all in radians.
+// Rotations about x, y, z, and of the translation about x and y, all in radians.
 using Correction = Eigen::Matrix<double, 5, 1>;
 
-// How far the camera may be from what the wheels tell: bumps, a mounting that is not quite level.
+// Standard deviations of the camera's motion relative to odometry: bumps, a mounting that is not
+// level.
 const Correction kPriorSigmas = Correction(1.0, 0.7, 0.7, 3.0, 2.0) * kRadPerDeg;
 
 constexpr int kIterations = 6;
@@ -33,22 +34,22 @@ Eigen::Isometry3d corrected(const Eigen::Isometry3d& before_from_now, const Corr
 
 }  // namespace
 
-Eigen::Isometry3d camera_motion(const WheelMotion& wheels) {
-  const double turn_rad = wheels.turn_rad;
+Eigen::Isometry3d camera_motion(const OdometryIncrement& odometry) {
+  const double turn_rad = odometry.turn_rad;
   Eigen::Isometry3d before_from_now = Eigen::Isometry3d::Identity();
   before_from_now.linear() =
       Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
   before_from_now.translation() =
-      wheels.distance_m * Eigen::Vector3d(std::sin(turn_rad / 2), 0, std::cos(turn_rad / 2));
+      odometry.distance_m * Eigen::Vector3d(std::sin(turn_rad / 2), 0, std::cos(turn_rad / 2));
   return before_from_now;
 }
 
 double epipolar_distance(const RayPair& pair, const Eigen::Isometry3d& before_from_now) {
-  // now . (R (way x before)) = 0 for a point that stands still.
+  // now . (R (t x before)) = 0 for a static point.
   const Eigen::Matrix3d now_from_before = before_from_now.linear().transpose();
-  const Eigen::Vector3d way_m = before_from_now.translation();
-  const Eigen::Vector3d line_now = now_from_before * way_m.cross(pair.before);
-  const Eigen::Vector3d line_before = (before_from_now.linear() * pair.now).cross(way_m);
+  const Eigen::Vector3d distance_m = before_from_now.translation();
+  const Eigen::Vector3d line_now = now_from_before * distance_m.cross(pair.before);
+  const Eigen::Vector3d line_before = (before_from_now.linear() * pair.now).cross(distance_m);
   const double scale =
       std::sqrt(line_now.head<2>().squaredNorm() + line_before.head<2>().squaredNorm());
   return scale > 0 ? pair.now.dot(line_now) / scale : 0;

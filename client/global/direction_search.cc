@@ -15,8 +15,8 @@ namespace {
 constexpr int kRefinements = 15;
 constexpr double kMinMeetingAngleRad = 0.5 * kRadPerDeg;
 
-// How much a circle tells that fits: minus the logarithm of the share of all turns about its middle
-// that would have fitted as well.
+// The information of a fitting circle, in nats: minus the logarithm of the share of all rotations
+// about its middle that would fit as well.
 double surprise(const GreatCircle& circle) {
   const double fitting_share = 2 * kMaxMisfitSigmas * circle.turn_sigma_rad / std::numbers::pi;
   return std::max(0.0, -std::log(fitting_share));
@@ -33,7 +33,7 @@ double misfit_sigmas(const GreatCircle& circle, const Eigen::Vector3d& direction
   return std::abs(circle.normal.dot(direction)) / circle.sigma_rad(direction);
 }
 
-double evidence(std::span<const GreatCircle> circles, const Eigen::Vector3d& direction) {
+double likelihood(std::span<const GreatCircle> circles, const Eigen::Vector3d& direction) {
   double sum = 0;
   for (const GreatCircle& circle : circles) {
     const double part = misfit_sigmas(circle, direction) / kMaxMisfitSigmas;
@@ -50,9 +50,9 @@ std::optional<Eigen::Vector3d> strongest_direction(
   const auto paired = circles.first(std::min(pairs_of, circles.size()));
   for (const Eigen::Vector3d& point : intersections(paired, kMinMeetingAngleRad)) {
     if (!is_allowed(point)) continue;
-    const double told = evidence(circles, point);
-    if (told <= most) continue;
-    most = told;
+    const double value = likelihood(circles, point);
+    if (value <= most) continue;
+    most = value;
     strongest = point;
   }
   return strongest;

@@ -1,4 +1,4 @@
-// Which direction the most great circles pass through, and where exactly.
+// Search and refinement of the direction that most great circles pass through.
 #pragma once
 
 #include <cstddef>
@@ -22,30 +22,30 @@ struct Zone {
   bool contains(const Eigen::Vector3d& direction) const;
 };
 
-// What is known of a direction beside the lines: that it is square to `axis`, within sigma_rad.
+// Prior knowledge of a direction: it is perpendicular to `axis`, with this standard deviation.
 struct SquareTo {
   Eigen::Vector3d axis;
   double sigma_rad = 0;
 };
 
-// normal . direction in standard deviations: how badly a line fits a vanishing direction.
+// normal . direction| in standard deviations: the misfit of a line to a vanishing direction.
 double misfit_sigmas(const GreatCircle& circle, const Eigen::Vector3d& direction);
 
-// Beyond this a line does not belong to a direction.
+// Beyond this misfit a line does not belong to a direction.
 inline constexpr double kMaxMisfitSigmas = 3;
 
-// The evidence of the circles for a direction, in nats: each one that fits tells as much as the
-// fit is improbable by chance, fading out towards kMaxMisfitSigmas.
-double evidence(std::span<const GreatCircle> circles, const Eigen::Vector3d& direction);
+// The log-likelihood ratio of a direction by the circles, in nats: each fitting circle counts by
+// how improbable its fit is by chance, decreasing to 0 at kMaxMisfitSigmas.
+double likelihood(std::span<const GreatCircle> circles, const Eigen::Vector3d& direction);
 
-// The meeting point of two of the first `pairs_of` circles with the most evidence among those
-// allowed, or none if no two meet there.
+// The intersection of two of the first `pairs_of` circles with the highest likelihood among the
+// allowed ones; none if no two intersect there.
 std::optional<Eigen::Vector3d> strongest_direction(
     std::span<const GreatCircle> circles, std::size_t pairs_of,
     const std::function<bool(const Eigen::Vector3d&)>& is_allowed);
 
-// The direction near `start` with the least robust (Geman-McClure) sum of squared misfits, found
-// by reweighted least squares; `knowledge` counts as circles without outliers.
+// The direction near `start` that minimizes the robust (Geman-McClure) sum of squared misfits, by
+// iteratively reweighted least squares; `knowledge` counts as circles without outliers.
 Eigen::Vector3d refined_direction(std::span<const GreatCircle> circles,
                                   std::span<const SquareTo> knowledge,
                                   const Eigen::Vector3d& start);

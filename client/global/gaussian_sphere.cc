@@ -11,7 +11,7 @@
 namespace milepost {
 
 Eigen::Vector3d direction_of_pixel(const Pinhole& view, const Eigen::Vector2d& pixel) {
-  return view.ray_of(pixel.x(), pixel.y()).normalized();
+  return view.unproject(pixel.x(), pixel.y()).normalized();
 }
 
 double GreatCircle::arc_distance_rad(const Eigen::Vector3d& direction) const {
@@ -30,7 +30,7 @@ GreatCircle great_circle(const Pinhole& view, const LineSegment& segment, const 
   circle.middle = (start + end).normalized();
   circle.along = circle.normal.cross(circle.middle);
 
-  // Of two ends with independent noise the mean moves by end / sqrt 2 and the slope by sqrt 2 end.
+  // For two ends with independent noise the mean moves by end / sqrt 2 and the slope by sqrt 2 end.
   const double length_rad = 2 * std::asin(std::min(1.0, (end - start).norm() / 2));
   const double end_rad = noise.end_px * length_rad / segment.length_px();
   circle.turn_sigma_rad =

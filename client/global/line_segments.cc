@@ -7,8 +7,8 @@
 namespace milepost {
 namespace {
 
-// The detector looks at the image at this scale. OpenCV's own 0.8 takes more than twice as long for
-// directions that are no better.
+// The scale of the image for the detector. OpenCV's default of 0.8 takes more than twice as long
+// for directions that are no better.
 constexpr double kScale = 0.6;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Straight edges of an image (the aerial paper, section III, first step).
+// Detection of straight edges in an image (the aerial paper, section III, first step).
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace milepost {
 
-// Between two points of an image in pixels, x to the right and y down, from the centre of the top
-// left pixel. The dark side may lie on either hand.
+// A segment between two points in pixels, x to the right and y down, from the centre of the top
+// left pixel. The dark side may be on either side.
 struct LineSegment {
   Eigen::Vector2d start_px;
   Eigen::Vector2d end_px;
@@ -17,10 +17,10 @@ struct LineSegment {
   double length_px() const { return (end_px - start_px).norm(); }
 };
 
-// Segments of at least `min_length_px`, the longest first. They come from the line segment detector
-// of von Gioi et al. (IEEE TPAMI 32, 2010); the paper takes Canny edges and a progressive Hough
-// transform. The same image gives the same segments. Safe from several threads.
-// REQUIRES: `gray` is CV_8UC1 and not empty.
+// The segments of at least `min_length_px`, the longest first, from the line segment detector of
+// von Gioi et al. (IEEE TPAMI 32, 2010); the paper uses Canny edges and a progressive Hough
+// transform. Deterministic. Safe to call from several threads at once. REQUIRES: `gray` is CV_8UC1
+// and not empty.
 std::vector<LineSegment> line_segments(const cv::Mat& gray, double min_length_px);
 
 }  // namespace milepost

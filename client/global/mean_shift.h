@@ -1,18 +1,18 @@
-// Where the belief of a cloud of particles is densest (mean shift: Comaniciu and Meer, IEEE TPAMI
-// 24, 2002; the aerial paper, section IV).
+// The densest mode of a particle set (mean shift: Comaniciu and Meer, IEEE TPAMI 24, 2002; the
+// aerial paper, section IV).
 #pragma once
 
-#include "client/global/particle_cloud.h"
+#include "client/global/particle_set.h"
 
 namespace milepost {
 
-// A mode of the belief, by the particles within the kernel about it.
+// A mode of the belief: statistics of the particles within the kernel around it.
 struct BeliefMode {
-  PlanPose pose;       // their weighted mean
-  double mass = 0;     // of all weights, those within the kernel: (0, 1]
-  double sigma_m = 0;  // of position, in each direction
+  Pose2 pose;              // weighted mean
+  double probability = 0;  // sum of the weights within the kernel: (0, 1]
+  double sigma_m = 0;      // standard deviation of position, per axis
   double heading_sigma_rad = 0;
-  double wheel_scale = 1;  // their weighted mean
+  double odometry_scale = 1;  // weighted mean
 };
 
 struct ModeKernel {
@@ -20,8 +20,8 @@ struct ModeKernel {
   double heading_rad = 0.35;
 };
 
-// The mode with the most mass, sought from the densest parts of the cloud.
-// REQUIRES: the cloud is not empty.
-BeliefMode densest_mode(const ParticleCloud& cloud, const ModeKernel& kernel);
+// The mode with the highest probability, searched from the heaviest bins. REQUIRES: the set is not
+// empty.
+BeliefMode densest_mode(const ParticleSet& particles, const ModeKernel& kernel);
 
 }  // namespace milepost

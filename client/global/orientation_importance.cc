@@ -9,12 +9,12 @@
 namespace milepost {
 namespace {
 
-// psi_r is looked up in the middle of parts of a section, which are at most so wide.
+// psi_r is evaluated in the middle of parts of a section, which are at most this wide.
 constexpr double kPartRad = 5 * kRadPerDeg;
 
-// eta_e of Eq. 2 for the part of a section about one bearing.
-double similarity_at(const PlanPose& pose, double bearing_rad, const ViewSection& section,
-                     const WallIndex& walls, double reach_m) {
+// eta_e of Eq. 2 for the part of a section around one bearing.
+double similarity_at(const Pose2& pose, double bearing_rad, const ViewSection& section,
+                     const RayCastingGrid& walls, double reach_m) {
   const auto hit =
       walls.first_hit(pose.enu_m, direction_of(pose.heading_rad + bearing_rad), reach_m);
   if (!hit) return 0;
@@ -36,8 +36,8 @@ double similarity(double angle_rad) {
   return 1 - 1 / (1 + std::exp((20 - angle_rad / kRadPerDeg) / 2));
 }
 
-double orientation_importance(const PlanPose& pose, std::span<const ViewSection> sections,
-                              const WallIndex& walls, double reach_m) {
+double orientation_importance(const Pose2& pose, std::span<const ViewSection> sections,
+                              const RayCastingGrid& walls, double reach_m) {
   double weighted = 0;
   double total_rad = 0;
   for (const ViewSection& section : sections) {

@@ -11,18 +11,19 @@ constexpr double kKnownStartWayM = 20;
 
 }  // namespace
 
-ParticleCloud first_cloud(const FilterSettings& settings, const PlanBox& area, Random& random) {
-  return settings.start ? cloud_about(*settings.start, settings.particles, random)
-                        : uniform_cloud(settings.particles, area, random);
+ParticleSet initial_particles(const FilterSettings& settings, const PlanBox& area, Random& random) {
+  return settings.start ? particles_about(*settings.start, settings.particles, random)
+                        : uniform_particles(settings.particles, area, random);
 }
 
-WatchSettings watch_settings(const FilterSettings& settings) {
-  WatchSettings watch = settings.watch;
-  if (settings.start) watch.found_way_m = watch.found_straight_m = kKnownStartWayM;
-  return watch;
+ConvergenceSettings convergence_settings(const FilterSettings& settings) {
+  ConvergenceSettings convergence = settings.convergence;
+  if (settings.start)
+    convergence.min_found_distance_m = convergence.min_found_straight_m = kKnownStartWayM;
+  return convergence;
 }
 
-bool is_moving(const WheelMotion& motion) {
+bool is_moving(const OdometryIncrement& motion) {
   return std::abs(motion.distance_m) > kStandsM || std::abs(motion.turn_rad) > kStandsRad;
 }
 

@@ -19,12 +19,12 @@ const Value& any_of(std::span<const Value> values, Random& random) {
   return values[index(random)];
 }
 
-// Turned so that a wall in view has an orientation that is seen.
-PlanPose turned_to_walls(PlanPose pose, std::span<const ViewSection> sections,
-                         const WallIndex& walls, double reach_m, Random& random) {
+// Rotates the pose so that a visible wall has an observed orientation.
+Pose2 turned_to_walls(Pose2 pose, std::span<const ViewSection> sections,
+                      const RayCastingGrid& walls, double reach_m, Random& random) {
   const ViewSection& section = any_of(sections, random);
   const double observed_rad = any_of(std::span<const double>(section.orientations_rad), random);
-  // Having turned, it may look at another wall.
+  // After a rotation another wall may be visible.
   for (int turns = 0; turns < kMaxTurns; ++turns) {
     const double azimuth_rad = pose.heading_rad + section.bearings.middle_rad();
     const auto hit = walls.first_hit(pose.enu_m, direction_of(azimuth_rad), reach_m);
@@ -38,16 +38,16 @@ PlanPose turned_to_walls(PlanPose pose, std::span<const ViewSection> sections,
   return pose;
 }
 
-// Moved at right angles to the wall at which a beam ends, until it ends there.
-PlanPose moved_to_fit(const PlanPose& pose, const Beam& beam, const WallIndex& walls,
-                      const PlanBox& area, double reach_m) {
+// Moves the pose perpendicular to the wall that a beam hits, so that the beam ends there.
+Pose2 moved_to_fit(const Pose2& pose, const Beam& beam, const RayCastingGrid& walls,
+                   const PlanBox& area, double reach_m) {
   const Eigen::Vector2d direction = direction_of(pose.heading_rad + beam.bearing_rad);
   const auto hit = walls.first_hit(pose.enu_m, direction, reach_m);
   if (!hit) return pose;
   const PlanWall& wall = walls.walls()[hit->wall];
   const Eigen::Vector2d along = (wall.end_m - wall.begin_m).normalized();
   const Eigen::Vector2d normal(along.y(), -along.x());
-  PlanPose fitting = pose;
+  Pose2 fitting = pose;
   fitting.enu_m += (hit->range_m - beam.range_m) * direction.dot(normal) * normal;
   const bool is_possible =
       area.contains(fitting.enu_m) && !walls.is_crossed(pose.enu_m, fitting.enu_m);
@@ -56,9 +56,9 @@ PlanPose moved_to_fit(const PlanPose& pose, const Beam& beam, const WallIndex& w
 
 }  // namespace
 
-PlanPose proposed_pose(const WallObservation& observation, const WallIndex& walls,
-                       const PlanBox& area, double reach_m, Random& random) {
-  PlanPose pose =
+Pose2 proposed_pose(const WallObservation& observation, const RayCastingGrid& walls,
+                    const PlanBox& area, double reach_m, Random& random) {
+  Pose2 pose =
       turned_to_walls(uniform_pose(area, random), observation.sections, walls, reach_m, random);
   if (observation.beams.empty()) return pose;
   for (int i = 0; i < kBeams; ++i) {
@@ -68,15 +68,15 @@ PlanPose proposed_pose(const WallObservation& observation, const WallIndex& wall
   return pose;
 }
 
-ParticleCloud proposed_cloud(std::size_t count, const WallObservation& observation,
-                             const WallIndex& walls, const PlanBox& area, double reach_m,
-                             Random& random) {
-  ParticleCloud cloud(count);
-  for (Particle& particle : cloud) {
+ParticleSet proposed_particles(std::size_t count, const WallObservation& observation,
+                               const RayCastingGrid& walls, const PlanBox& area, double reach_m,
+                               Random& random) {
+  ParticleSet particles(count);
+  for (Particle& particle : particles) {
     particle = {proposed_pose(observation, walls, area, reach_m, random),
                 1.0 / static_cast<double>(count)};
   }
-  return cloud;
+  return particles;
 }
 
 }  // namespace milepost

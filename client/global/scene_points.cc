@@ -9,16 +9,16 @@
 
 #include <opencv2/features2d.hpp>
 
-#include "schema/geo/rays.h"
+#include "schema/geo/ray_triangulation.h"
 
 namespace milepost {
 namespace {
 
 constexpr std::size_t kMaxSights = 10;
-constexpr double kNearestM = 2;    // nothing that is followed is nearer
-constexpr double kSearchPx = 8;    // from the line of a match, before the motion is refined
-constexpr double kAgreesPx = 2.5;  // after it
-constexpr int kMaxBits = 60;       // of 256 that differ between descriptors of a match
+constexpr double kNearestM = 2;    // tracked points are assumed to be farther
+constexpr double kSearchPx = 8;    // search distance from the epipolar line ...
+constexpr double kAgreesPx = 2.5;  // ... and inlier distance, with the refined motion
+constexpr int kMaxBits = 60;       // maximum Hamming distance of 256-bit descriptors
 constexpr double kBestToSecond = 0.85;
 
 int bits_between(const std::array<std::uint64_t, 4>& a, const std::array<std::uint64_t, 4>& b) {
@@ -29,7 +29,8 @@ int bits_between(const std::array<std::uint64_t, 4>& a, const std::array<std::ui
 
 Eigen::Vector2d on_plane(const Eigen::Vector3d& camera) { return camera.head<2>() / camera.z(); }
 
-// Where a ray of the frame before can be now: between its point at infinity and a near one.
+// The part of the epipolar line on which a point of the previous frame can be now: between its
+// point at infinity and a near one.
 struct SearchLine {
   Eigen::Vector2d from;
   Eigen::Vector2d way;
@@ -40,7 +41,7 @@ struct SearchLine {
     const Eigen::Vector3d far = now_from_before.linear() * ray;
     Eigen::Vector3d near = now_from_before * (kNearestM * ray);
     if (far.z() <= 0.1) return std::nullopt;
-    // A point behind the camera's plane: the line goes off the image.
+    // A near point behind the camera's plane: the line leaves the image.
     if (near.z() <= 0.1) near = now_from_before * ((before_from_now.translation().z() + 0.5) * ray);
     if (near.z() <= 0.1) return std::nullopt;
     return SearchLine{on_plane(far), on_plane(near) - on_plane(far)};
@@ -53,15 +54,16 @@ struct SearchLine {
   }
 };
 
-// The point nearest to the rays of all sights, each as uncertain as 1 rad of its direction.
+// The least squares intersection of the rays of all observations, each with an uncertainty of 1 rad
+// in its direction.
 template <class Sights>
-std::optional<MeetingPoint> meeting_point(const Sights& sights) {
-  std::optional<MeetingPoint> met;
+std::optional<RayIntersection> meeting_point(const Sights& observations) {
+  std::optional<RayIntersection> met;
   for (int iteration = 0; iteration < 3; ++iteration) {
-    MeetingRays rays;
-    for (const auto& sight : sights) {
-      const double range_m = met ? (met->point_m - sight.from_m).norm() : 10;
-      rays.add(sight.from_m, sight.direction, 1 / (range_m * range_m));
+    RayTriangulation rays;
+    for (const auto& past : observations) {
+      const double range_m = met ? (met->point_m - past.from_m).norm() : 10;
+      rays.add(past.from_m, past.direction, 1 / (range_m * range_m));
     }
     met = rays.point();
     if (!met) break;
@@ -74,7 +76,8 @@ std::optional<MeetingPoint> meeting_point(const Sights& sights) {
 ScenePointTracker::ScenePointTracker(const Pinhole& view, const ScenePointSettings& settings)
     : view_(view), settings_(settings) {}
 
-std::vector<ScenePoint> ScenePointTracker::observe(const cv::Mat& gray, const WheelMotion& motion) {
+std::vector<ScenePoint> ScenePointTracker::observe(const cv::Mat& gray,
+                                                   const OdometryIncrement& motion) {
   since_last_.duration_s += motion.duration_s;
   since_last_.distance_m += motion.distance_m;
   since_last_.turn_rad += motion.turn_rad;
@@ -94,7 +97,7 @@ std::vector<ScenePointTracker::Feature> ScenePointTracker::features_of(const cv:
   orb->detectAndCompute(gray, cv::noArray(), keypoints, descriptors);
   std::vector<Feature> features(keypoints.size());
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
-    features[i].ray = view_.ray_of(keypoints[i].pt.x, keypoints[i].pt.y);
+    features[i].ray = view_.unproject(keypoints[i].pt.x, keypoints[i].pt.y);
     std::memcpy(features[i].descriptor.data(), descriptors.ptr(static_cast<int>(i)), 32);
   }
   return features;
@@ -140,29 +143,30 @@ std::vector<ScenePointTracker::Match> ScenePointTracker::matches_of(
 }
 
 void ScenePointTracker::follow(const std::vector<Feature>& features,
-                               const Eigen::Isometry3d& by_wheels) {
-  const std::vector<Match> matches = matches_of(features, by_wheels);
+                               const Eigen::Isometry3d& by_odometry) {
+  const std::vector<Match> matches = matches_of(features, by_odometry);
   std::vector<RayPair> pairs;
   pairs.reserve(matches.size());
   for (const Match& match : matches) {
     pairs.push_back({tracks_[match.track].last.ray, features[match.feature].ray});
   }
   const double ray_sigma = settings_.pixel_sigma_px / view_.focal_px();
-  const Eigen::Isometry3d before_from_now = refined_motion(pairs, by_wheels, ray_sigma);
+  const Eigen::Isometry3d before_from_now = refined_motion(pairs, by_odometry, ray_sigma);
   first_from_camera_ = first_from_camera_ * before_from_now;
 
   std::vector<Track> followed(features.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const double off_px = std::abs(epipolar_distance(pairs[i], before_from_now)) * view_.focal_px();
     if (off_px > kAgreesPx) continue;
-    followed[matches[i].feature].sights = std::move(tracks_[matches[i].track].sights);
+    followed[matches[i].feature].observations = std::move(tracks_[matches[i].track].observations);
   }
   for (std::size_t f = 0; f < features.size(); ++f) {
     Track& track = followed[f];
     track.last = features[f];
-    track.sights.push_back({first_from_camera_.translation(),
-                            (first_from_camera_.linear() * features[f].ray).normalized()});
-    if (track.sights.size() > kMaxSights) track.sights.erase(track.sights.begin());
+    track.observations.push_back({first_from_camera_.translation(),
+                                  (first_from_camera_.linear() * features[f].ray).normalized()});
+    if (track.observations.size() > kMaxSights)
+      track.observations.erase(track.observations.begin());
   }
   tracks_ = std::move(followed);
 }
@@ -172,16 +176,16 @@ std::vector<ScenePoint> ScenePointTracker::triangulated() const {
   const Eigen::Isometry3d camera_from_first = first_from_camera_.inverse();
   std::vector<ScenePoint> points;
   for (const Track& track : tracks_) {
-    if (track.sights.size() < 2) continue;
-    const auto met = meeting_point(track.sights);
+    if (track.observations.size() < 2) continue;
+    const auto met = meeting_point(track.observations);
     if (!met) continue;
     const Eigen::Vector3d& point_m = met->point_m;
     const Eigen::Vector3d camera_m = camera_from_first * point_m;
     if (camera_m.z() <= kNearestM / 2) continue;
-    const bool agrees = std::ranges::all_of(track.sights, [&](const Sight& sight) {
-      const Eigen::Vector3d way = point_m - sight.from_m;
-      return way.dot(sight.direction) > 0 &&
-             way.cross(sight.direction).norm() < 3 * ray_sigma * way.norm();
+    const bool agrees = std::ranges::all_of(track.observations, [&](const RayObservation& past) {
+      const Eigen::Vector3d way = point_m - past.from_m;
+      return way.dot(past.direction) > 0 &&
+             way.cross(past.direction).norm() < 3 * ray_sigma * way.norm();
     });
     if (!agrees) continue;
     const Eigen::Vector3d ray = (point_m - first_from_camera_.translation()).normalized();

@@ -12,10 +12,10 @@ namespace {
 const Eigen::Vector3d kCameraUp(0, -1, 0);
 
 constexpr std::size_t kVotingLines = 60;
-constexpr double kMinEvidence = 20;                 // nats: six to eight good lines
+constexpr double kMinLogLikelihoodRatio = 20;       // nats: six to eight good lines
 constexpr double kMinApartRad = 15 * kRadPerDeg;    // of two horizontal directions
-constexpr double kBandRad = 5 * kRadPerDeg;         // horizontal directions about the found horizon
-constexpr double kSquareSigmaRad = 1 * kRadPerDeg;  // of walls: their level edges on the vertical
+constexpr double kBandRad = 5 * kRadPerDeg;         // around the detected horizon
+constexpr double kSquareSigmaRad = 1 * kRadPerDeg;  // of horizontal against vertical edges
 constexpr int kJointRefinements = 3;
 
 using Directions = std::vector<VanishingDirection>;
@@ -25,21 +25,22 @@ Eigen::Vector3d oriented(const Eigen::Vector3d& direction, Orientation orientati
   return turn ? Eigen::Vector3d(-direction) : direction;
 }
 
-// Circles that no direction passes through.
+// The circles that fit none of the directions.
 std::vector<GreatCircle> unexplained(std::span<const GreatCircle> circles,
                                      const Directions& directions) {
   std::vector<GreatCircle> rest;
   for (const GreatCircle& circle : circles) {
-    const bool explained =
+    const bool is_explained =
         std::any_of(directions.begin(), directions.end(), [&](const VanishingDirection& direction) {
           return misfit_sigmas(circle, direction.direction) < kMaxMisfitSigmas;
         });
-    if (!explained) rest.push_back(circle);
+    if (!is_explained) rest.push_back(circle);
   }
   return rest;
 }
 
-// The directions that `index` is square to: the horizontal ones to the vertical, and it to them.
+// The directions perpendicular to direction `index`: the vertical one to horizontal ones and vice
+// versa.
 std::vector<SquareTo> square_to(const Directions& directions, std::size_t index) {
   std::vector<SquareTo> known;
   for (const VanishingDirection& other : directions) {
@@ -66,14 +67,15 @@ bool apart_from_all(const Directions& directions, const Eigen::Vector3d& directi
   });
 }
 
-Directions by_evidence(std::span<const GreatCircle> circles, const VanishingSettings& settings) {
+Directions directions_by_likelihood(std::span<const GreatCircle> circles,
+                                    const VanishingSettings& settings) {
   Directions directions;
   const Zone pole = vertical_zone(settings);
   const auto vertical = strongest_direction(
       circles, kVotingLines,
       [&](const Eigen::Vector3d& direction) { return pole.contains(direction); });
   Zone horizon = horizontal_zone(settings);
-  if (vertical && evidence(circles, *vertical) >= kMinEvidence) {
+  if (vertical && likelihood(circles, *vertical) >= kMinLogLikelihoodRatio) {
     directions.push_back(
         vanishing_direction(refined_direction(circles, {}, *vertical), Orientation::vertical));
     horizon = {directions.front().direction, 90 * kRadPerDeg - kBandRad, 90 * kRadPerDeg};
@@ -84,7 +86,7 @@ Directions by_evidence(std::span<const GreatCircle> circles, const VanishingSett
         strongest_direction(rest, kVotingLines, [&](const Eigen::Vector3d& direction) {
           return horizon.contains(direction) && apart_from_all(directions, direction);
         });
-    if (!strongest || evidence(rest, *strongest) < kMinEvidence) break;
+    if (!strongest || likelihood(rest, *strongest) < kMinLogLikelihoodRatio) break;
     directions.push_back(vanishing_direction(*strongest, Orientation::horizontal));
     refine_together(circles, directions);
   }
@@ -135,7 +137,7 @@ VanishingDirections with_lines(std::span<const LineSegment> segments,
 VanishingDirections vanishing_directions(std::span<const LineSegment> segments, const Pinhole& view,
                                          const VanishingSettings& settings) {
   const std::vector<GreatCircle> circles = great_circles(view, segments, settings.noise);
-  return with_lines(segments, circles, by_evidence(circles, settings),
+  return with_lines(segments, circles, directions_by_likelihood(circles, settings),
                     [](const GreatCircle& circle, const Eigen::Vector3d& direction) {
                       return misfit_sigmas(circle, direction) / kMaxMisfitSigmas;
                     });

@@ -1,6 +1,6 @@
-// From an image to the directions of the edges of buildings (the aerial paper, section III): the
-// vertical, and the horizontal ones, which are the orientations of walls. Our way (decision 20):
-// lines vote by their noise, and the directions are refined together.
+// The vanishing directions of building edges in an image (the aerial paper, section III): the
+// vertical one and the horizontal ones, which are the orientations of walls. Ours (decision 20):
+// lines vote by their noise, and the directions are refined jointly.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ enum class Orientation { vertical, horizontal };
 
 struct VanishingSettings {
   double min_length_px = 20;  // of a line segment
-  double max_tilt_deg = 40;   // of the camera against the vertical, roll and pitch together
+  double max_tilt_deg = 40;   // of the camera from upright, roll and pitch combined
   LineNoise noise;
   std::size_t max_horizontal = 3;
 };
@@ -31,38 +31,39 @@ struct VanishingSettings {
 struct VanishingDirection {
   Eigen::Vector3d direction;  // unit, in the camera frame; up for the vertical, else z >= 0
   Orientation orientation = Orientation::horizontal;
-  std::size_t lines = 0;  // that belong to it
+  std::size_t lines = 0;  // number of its lines
 };
 
 struct VanishingLine {
   LineSegment segment;
-  std::optional<std::size_t> direction;  // index into directions; none for a line left out
+  std::optional<std::size_t> direction;  // index into directions; none for an outlier
 };
 
 struct VanishingDirections {
-  std::vector<VanishingDirection> directions;  // the vertical first, if found, then by evidence
+  std::vector<VanishingDirection> directions;  // the vertical first, if found, then by likelihood
   std::vector<VanishingLine> lines;            // the longest first
 };
 
-// REQUIRES: segments as line_segments() returns them, of pixels of the view.
+// REQUIRES: segments as returned by line_segments(), in pixels of the view.
 VanishingDirections vanishing_directions(std::span<const LineSegment> segments, const Pinhole& view,
                                          const VanishingSettings& settings = {});
 
-// The same image and settings give the same answer, to the bit. Safe from several threads.
-// REQUIRES: `gray` is CV_8UC1 and not empty.
+// Deterministic, to the bit. Safe to call from several threads at once. REQUIRES: `gray` is CV_8UC1
+// and not empty.
 VanishingDirections vanishing_directions(const cv::Mat& gray, const Pinhole& view,
                                          const VanishingSettings& settings = {});
 
-// What other ways to find them share:
-// Where a vertical and where a horizontal direction may be, of a camera that is tilted no more.
+// Shared with other methods of finding them: The zones of vertical and horizontal directions for a
+// camera within the maximum tilt.
 Zone vertical_zone(const VanishingSettings& settings);
 Zone horizontal_zone(const VanishingSettings& settings);
-// Turned to the side that VanishingDirection names.
+// With the sign that VanishingDirection defines.
 VanishingDirection vanishing_direction(const Eigen::Vector3d& direction, Orientation orientation);
-// How far a line is off a direction: from 1 on it is not of it.
+// The misfit of a line to a direction, relative to the threshold: from 1 on the line does not
+// belong to it.
 using RelativeMisfit = std::function<double(const GreatCircle&, const Eigen::Vector3d& direction)>;
-// The directions with their lines, each the one's that it misfits least. `circles` are the
-// segments' own.
+// The directions with their lines; each line is assigned to the direction with the smallest misfit.
+// `circles` are those of the segments.
 VanishingDirections with_lines(std::span<const LineSegment> segments,
                                std::span<const GreatCircle> circles,
                                std::vector<VanishingDirection> directions,

@@ -1,21 +1,21 @@
-// From a frame to what it tells of the walls about the vehicle.
+// Extracts the measurements of the walls around the vehicle from a frame.
 #pragma once
 
 #include <vector>
 
 #include <opencv2/core.hpp>
 
-#include "client/global/range_agreement.h"
+#include "client/global/range_likelihood.h"
 #include "client/global/scene_points.h"
 #include "client/global/vanishing_directions.h"
-#include "client/global/wall_sightings.h"
+#include "client/global/view_sections.h"
 #include "schema/geo/pinhole.h"
 
 namespace milepost {
 
 struct WallObservation {
   std::vector<ViewSection> sections;  // orientations by bearing: the paper's
-  std::vector<Beam> beams;            // points by bearing: ours
+  std::vector<Beam> beams;            // ranges by bearing: ours
 };
 
 struct ObserverSettings {
@@ -30,8 +30,8 @@ class WallObserver {
  public:
   WallObserver(const Pinhole& view, const ObserverSettings& settings);
 
-  // `motion` is that since the last call. REQUIRES: `gray` is CV_8UC1 and not empty.
-  WallObservation observe(const cv::Mat& gray, const WheelMotion& motion);
+  // `motion` is the odometry since the last call. REQUIRES: `gray` is CV_8UC1 and not empty.
+  WallObservation observe(const cv::Mat& gray, const OdometryIncrement& motion);
 
  private:
   Pinhole view_;

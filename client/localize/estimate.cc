@@ -8,7 +8,7 @@
 namespace milepost {
 namespace {
 
-// Where the estimates, each as certain as its own sigma, are densest.
+// The mode of the estimates, each weighted by its certainty.
 double densest_along_m(const std::vector<PositionEstimate>& estimates, double width_m) {
   double densest_m = estimates.front().along_m;
   double highest = -1;
@@ -26,13 +26,13 @@ double densest_along_m(const std::vector<PositionEstimate>& estimates, double wi
   return densest_m;
 }
 
-// A weighted mean of the estimates that are trusted at a position.
+// The weighted mean of the estimates that are trusted at a position.
 struct TrustedMean {
   double along_m = 0;
   double weight = 0;      // sum of the weights, 1/m^2
   double square_m2 = 0;   // weighted mean of squared deviations from along_m
-  double chi_square = 0;  // trusted mean of squared deviations in units of the estimates' sigmas
-  int support = 0;        // estimates trusted at all
+  double chi_square = 0;  // mean over trust of squared deviations in units of the estimates' sigmas
+  int support = 0;        // estimates with a weight above 0
 };
 
 double trust_in(const PositionEstimate& estimate, double along_m, double cutoff) {
@@ -82,7 +82,7 @@ std::optional<Measurement> combine_robustly(const std::vector<PositionEstimate>&
     along_m = mean.along_m;
     if (moved_m < 1e-4) break;
   }
-  // How far the estimates that count really spread, against what their sigmas promise.
+  // The actual spread of the inliers relative to their sigmas.
   const double inflation = std::max(1.0, std::sqrt(mean.chi_square));
   const double own_sigma_m = inflation / std::sqrt(mean.weight);
   const double shared_sigma_m = settings.shared_part * std::sqrt(mean.square_m2);

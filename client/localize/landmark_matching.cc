@@ -11,17 +11,17 @@ namespace {
 
 constexpr int kFar = std::numeric_limits<int>::max();
 
-bool mapped_in(const PlacedLandmark& landmark, const AlongRange& region, double margin_m) {
+bool mapped_in(const LocalLandmark& landmark, const AlongRange& region, double margin_m) {
   return landmark.along.widened(margin_m).meets(region);
 }
 
-// A map may come with a step so small that no whole number holds the square.
+// Saturates: with a very small quantization step of the map no int holds the square.
 int squared_steps(double distance, double codebook_step) {
   return static_cast<int>(std::min<double>(kFar, std::pow(distance / codebook_step, 2)));
 }
 
-// The candidate most alike, and how much alike the next one at another place is.
-class NearestTwo {
+// Nearest neighbour and Lowe's ratio test against the nearest candidate at another place.
+class RatioTest {
  public:
   template <class SamePlace>
   void offer(int squared, std::size_t candidate, const SamePlace& same_place) {
@@ -36,7 +36,7 @@ class NearestTwo {
     }
   }
 
-  // Whether the nearest is alike enough, and more than the next by the ratio of distances.
+  // Whether the nearest is near enough, and nearer than the second by the ratio of distances.
   bool is_distinct(int max_squared, double max_ratio) const {
     return best_ < max_squared && best_ <= max_ratio * max_ratio * second_;
   }
@@ -49,32 +49,30 @@ class NearestTwo {
   std::size_t nearest_ = 0;
 };
 
-// Where a landmark is expected in the image.
-struct ExpectedSight {
+// The search gate of a landmark in the image.
+struct SearchGate {
   Eigen::Vector2d pixel;
   double radius_px = 0;
   double scale_px = 0;
 };
 
-std::optional<ExpectedSight> expected_sight(const PlacedLandmark& landmark,
-                                            const PoseBelief& belief, const Pinhole& given,
-                                            const LandmarkMatchSettings& settings) {
+std::optional<SearchGate> search_gate(const LocalLandmark& landmark, const PoseBelief& belief,
+                                      const Pinhole& given, const LandmarkMatchSettings& settings) {
   const CameraPose pose = belief.pose();
   const Pinhole camera = belief.camera(given);
   const Eigen::Matrix3d rotation = camera_from_enu(pose);
   const Eigen::Vector3d seen = rotation * (landmark.enu_m - pose.enu_m);
   if (!(seen.z() > kNearestSeenM)) return std::nullopt;
-  ExpectedSight expected;
-  expected.pixel = camera.pixel_of(seen);
+  SearchGate expected;
+  expected.pixel = camera.project(seen);
   expected.scale_px = landmark.size_m * camera.focal_px() / seen.z();
-  // What a metre moves the image by, in any direction, and what an angle does.
+  // Propagates position and angle uncertainty to the image.
   const double focal_px = camera.focal_px();
-  const Eigen::Matrix3d position = belief.covariance.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d position = belief.P.topLeftCorner<3, 3>();
   const Eigen::Vector3d ray = (landmark.enu_m - pose.enu_m).normalized();
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
   const double across_m = std::sqrt((across * position * across).trace());
-  const double angle_rad =
-      std::sqrt(belief.covariance(kHeading, kHeading) + belief.covariance(kPitch, kPitch));
+  const double angle_rad = std::sqrt(belief.P(kHeading, kHeading) + belief.P(kPitch, kPitch));
   const double depth_m = landmark.depth_sigma_m * (across * landmark.mapping_ray).norm();
   const double sigma_px =
       focal_px * std::hypot(std::hypot(across_m, depth_m) / seen.z(), angle_rad);
@@ -86,7 +84,7 @@ std::optional<ExpectedSight> expected_sight(const PlacedLandmark& landmark,
 
 }  // namespace
 
-CompactFrame::CompactFrame(const FeatureSet& set, const Codebook& codebook)
+CompactFrame::CompactFrame(const FeatureSet& set, const PcaProjection& codebook)
     : features(set.features), grid(set.features) {
   descriptors.reserve(set.size());
   for (const Descriptor& descriptor : set.descriptors) {
@@ -94,10 +92,10 @@ CompactFrame::CompactFrame(const FeatureSet& set, const Codebook& codebook)
   }
 }
 
-std::vector<LandmarkMatch> match_anywhere(const CompactFrame& frame, double codebook_step,
-                                          const std::vector<PlacedLandmark>& landmarks,
-                                          const AlongRange& region,
-                                          const LandmarkMatchSettings& settings) {
+std::vector<LandmarkMatch> match_global(const CompactFrame& frame, double codebook_step,
+                                        const std::vector<LocalLandmark>& landmarks,
+                                        const AlongRange& region,
+                                        const LandmarkMatchSettings& settings) {
   std::vector<std::size_t> mapped;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     if (mapped_in(landmarks[i], region, settings.along_margin_m)) mapped.push_back(i);
@@ -108,7 +106,7 @@ std::vector<LandmarkMatch> match_anywhere(const CompactFrame& frame, double code
   };
   std::vector<LandmarkMatch> matches;
   for (std::size_t f = 0; f < frame.features.size(); ++f) {
-    NearestTwo alike;
+    RatioTest alike;
     for (const std::size_t i : mapped) {
       alike.offer(distance_squared(frame.descriptors[f], landmarks[i].descriptor), i, same_place);
     }
@@ -119,16 +117,16 @@ std::vector<LandmarkMatch> match_anywhere(const CompactFrame& frame, double code
   return matches;
 }
 
-std::vector<LandmarkMatch> match_expected(const CompactFrame& frame, double codebook_step,
-                                          const std::vector<PlacedLandmark>& landmarks,
-                                          const AlongRange& region, const PoseBelief& belief,
-                                          const Pinhole& camera,
-                                          const LandmarkMatchSettings& settings) {
+std::vector<LandmarkMatch> match_guided(const CompactFrame& frame, double codebook_step,
+                                        const std::vector<LocalLandmark>& landmarks,
+                                        const AlongRange& region, const PoseBelief& belief,
+                                        const Pinhole& camera,
+                                        const LandmarkMatchSettings& settings) {
   struct Claim {
     int squared = kFar;
     std::size_t landmark = 0;
   };
-  std::vector<Claim> claims(frame.features.size());  // each feature goes to the most alike
+  std::vector<Claim> claims(frame.features.size());  // by feature: its nearest landmark
   const int max_squared = squared_steps(settings.max_distance, codebook_step);
   constexpr double kSamePlacePx = 2;
   const auto same_place = [&](std::size_t a, std::size_t b) {
@@ -136,11 +134,11 @@ std::vector<LandmarkMatch> match_expected(const CompactFrame& frame, double code
                       frame.features[a].y_px - frame.features[b].y_px) <= kSamePlacePx;
   };
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    const PlacedLandmark& landmark = landmarks[i];
+    const LocalLandmark& landmark = landmarks[i];
     if (!mapped_in(landmark, region, settings.along_margin_m)) continue;
-    const auto expected = expected_sight(landmark, belief, camera, settings);
+    const auto expected = search_gate(landmark, belief, camera, settings);
     if (!expected) continue;
-    NearestTwo alike;
+    RatioTest alike;
     frame.grid.visit_near(
         static_cast<float>(expected->pixel.x()), static_cast<float>(expected->pixel.y()),
         static_cast<float>(expected->radius_px), [&](std::size_t f) {
@@ -151,7 +149,7 @@ std::vector<LandmarkMatch> match_expected(const CompactFrame& frame, double code
             return;
           alike.offer(distance_squared(frame.descriptors[f], landmark.descriptor), f, same_place);
         });
-    if (!alike.is_distinct(max_squared, settings.max_expected_ratio)) continue;
+    if (!alike.is_distinct(max_squared, settings.max_guided_ratio)) continue;
     Claim& claim = claims[alike.nearest()];
     if (alike.squared() < claim.squared) claim = {alike.squared(), i};
   }

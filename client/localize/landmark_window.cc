@@ -28,7 +28,7 @@ void LandmarkWindow::rebuild() {
   tiles_.for_each([this](const LandmarkTile& tile) {
     const LocalFrame tile_frame(line_.point_at(tile.origin_m));
     for (const Landmark& landmark : tile.landmarks) {
-      PlacedLandmark placed;
+      LocalLandmark placed;
       placed.descriptor = landmark.descriptor;
       placed.enu_m = vector_from(frame_.enu_from_geo(tile_frame.geo_from_enu(landmark.position)));
       const double middle_m = (landmark.along.from_m + landmark.along.to_m) / 2;

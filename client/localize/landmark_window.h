@@ -1,4 +1,4 @@
-// The landmarks around the vehicle, in one tangent frame.
+// The landmarks around the vehicle in one tangent frame.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@
 
 namespace milepost {
 
-// A landmark as the localizer sees it.
-struct PlacedLandmark {
+// A landmark in the tangent frame of the window.
+struct LocalLandmark {
   CompactDescriptor descriptor{};
-  Eigen::Vector3d enu_m;        // in the window's frame
-  Eigen::Vector3d mapping_ray;  // unit vector from where it was mapped towards it, along which its
-  double depth_sigma_m = 0;     // ... position is uncertain
+  Eigen::Vector3d enu_m;        // in the window's tangent frame
+  Eigen::Vector3d mapping_ray;  // unit vector towards it from the middle of where it was mapped
+  double depth_sigma_m = 0;     // of its position, along the mapping ray
   double size_m = 0;
-  double size_sigma = 0;  // of ln size
+  double size_sigma = 0;  // of ln(size)
   AlongRange along;
 };
 
@@ -28,13 +28,13 @@ class LandmarkWindow {
   // REQUIRES: `line` outlives the window.
   LandmarkWindow(SegmentKey segment, const WindowReach& reach, const RouteLine& line);
 
-  // Takes every landmark that is held and whose along range meets `range`, and lets go of others.
+  // Loads every held landmark whose arc length range meets `range` and discards others.
   Covered cover(const HeldMap& held, const AlongRange& range);
-  // Moves the frame's origin to `origin`.
+  // Moves the origin of the tangent frame.
   void set_origin(const GeoPoint& origin);
 
   // Valid until the next cover() or set_origin().
-  const std::vector<PlacedLandmark>& landmarks() const { return landmarks_; }
+  const std::vector<LocalLandmark>& landmarks() const { return landmarks_; }
   const LocalFrame& frame() const { return frame_; }
 
  private:
@@ -43,7 +43,7 @@ class LandmarkWindow {
   TileWindow<LandmarkTile> tiles_;
   const RouteLine& line_;
   LocalFrame frame_;
-  std::vector<PlacedLandmark> landmarks_;
+  std::vector<LocalLandmark> landmarks_;
 };
 
 }  // namespace milepost

@@ -6,48 +6,48 @@
 #include <variant>
 
 #include "client/fetch/tile_provider.h"
-#include "client/localize/place.h"
-#include "client/localize/second_look.h"
+#include "client/localize/hypothesis.h"
+#include "client/localize/relocalization_check.h"
 #include "schema/geo/near.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kMaxStartTurnDeg = 60;    // between a heading that is known and a segment's
-constexpr double kMaxOdometryAgeS = 0.5;   // at a start
+constexpr double kMaxStartTurnDeg = 60;    // between a known heading and that of a segment
+constexpr double kMaxOdometryAgeS = 0.5;   // of a reading used when a hypothesis starts
 constexpr std::size_t kMaxCandidates = 4;  // segments searched
-constexpr double kElsewhereM = 5;          // how far off elsewhere is at least ...
-constexpr double kUnknownM = 30;           // ... and where no receiver tells
-constexpr double kDoubt = -1;              // a frame that says less leaves the place in doubt
+constexpr double kElsewhereM = 5;          // minimum sigma of "elsewhere" ...
+constexpr double kUnknownM = 30;           // ... and its sigma without a GNSS fix
+constexpr double kDoubt = -1;              // log Bayes factor of a frame that causes doubt
 
-// No place is claimed: those that may be it are weighed against each other and elsewhere.
+// No hypothesis is accepted: all are tested against each other and elsewhere.
 struct Searching {
-  FixStatus waiting =
-      FixStatus::initializing;  // what to say until one is: initializing, lost, off_map
-  std::vector<Place> places = {};
-  std::optional<CoarsePosition> lost_at = {};  // where the place was that was followed last
-  std::optional<Place> left = {};              // ... that went over an end of its segment
+  // The status reported until one is accepted: initializing, lost, off_map.
+  FixStatus waiting = FixStatus::initializing;
+  std::vector<Hypothesis> hypotheses = {};
+  std::optional<GnssFix> lost_at = {};  // position of the hypothesis tracked last
+  std::optional<Hypothesis> left = {};  // a hypothesis that left its segment over an end
 
-  void leave(Place place) {
+  void leave(Hypothesis hypothesis) {
     waiting = FixStatus::off_map;
-    left = std::move(place);
+    left = std::move(hypothesis);
   }
 };
 
-// One place is claimed and followed.
-struct Following {
-  Place place;
+// One hypothesis is accepted and tracked.
+struct Tracking {
+  Hypothesis hypothesis;
   int frames_without_measurement = 0;
-  SecondLook second_look = {};
-  std::optional<double> doubt =
-      {};  // log odds of the place, where the latest frame left it in doubt
+  RelocalizationCheck relocalization_check = {};
+  // Log odds of the hypothesis if the latest frame left it in doubt.
+  std::optional<double> doubt = {};
 };
 
-// What a look about a position came to.
-struct Scouted {
-  std::optional<double> nearest_m;  // how far the nearest segment is, infinitely where none is
-                                    // near; nothing while that is not known
-  std::optional<Error> failure = std::nullopt;  // why something is missing of the map
+// The result of searching around a position.
+struct NearbySearch {
+  // Distance of the nearest segment, infinite if none is near; none while unknown.
+  std::optional<double> nearest_m;
+  std::optional<Error> failure = std::nullopt;  // why map data is missing
 };
 
 }  // namespace
@@ -61,30 +61,30 @@ struct Localizer::Impl {
   LocalizerSettings settings;
   TileProvider provider;
 
-  std::optional<CoarsePosition> coarse;  // the receiver's latest
-  std::optional<Odometry> odometry;      // the latest
-  std::variant<Searching, Following> state = Searching{};
-  std::vector<std::shared_ptr<OpenSegment>> segments;  // opened last, the latest at the end
-  std::optional<Error> noted;
+  std::optional<GnssFix> gnss;       // the latest
+  std::optional<Odometry> odometry;  // the latest
+  std::variant<Searching, Tracking> state = Searching{};
+  std::vector<std::shared_ptr<OpenSegment>> segments;  // recently opened, the latest last
+  std::optional<Error> last_error;
 
-  Result<Fix> search(SeenFrame& frame);
-  Result<Fix> follow(SeenFrame& frame);
+  Result<Fix> search(SharedFrame& frame);
+  Result<Fix> track(SharedFrame& frame);
 
-  std::optional<CoarsePosition> fresh(const std::optional<CoarsePosition>& position,
-                                      double timestamp_s) const;
-  Surroundings surroundings(const CoarsePosition& around) const;
-  double start_reach_m(const CoarsePosition& around, double timestamp_s) const;
-  Scouted scout(SeenFrame& frame, const CoarsePosition& around, Searching& searching);
+  std::optional<GnssFix> fresh(const std::optional<GnssFix>& position, double timestamp_s) const;
+  Surroundings surroundings(const GnssFix& around) const;
+  double start_reach_m(const GnssFix& around, double timestamp_s) const;
+  NearbySearch relocalize_nearby(SharedFrame& frame, const GnssFix& around, Searching& searching);
   Result<std::shared_ptr<OpenSegment>> opened(const std::shared_ptr<const SegmentLayer>& layer);
-  void carry(Searching& searching, SeenFrame& frame);
+  void carry(Searching& searching, SharedFrame& frame);
   Fix weighed(Searching& searching, double timestamp_s);
-  void look_again(Following& following, SeenFrame& frame) const;
-  void claim(Place place);
+  void check_by_relocalization(Tracking& tracking, SharedFrame& frame) const;
+  void claim(Hypothesis hypothesis);
   Wants wants(double timestamp_s, const HeldMap& held) const;
-  Fix located(const Place& place, FixStatus status) const;
-  Fix located(const Place& place, const TrackedPosition& position, double timestamp_s,
+  Fix located(const Hypothesis& hypothesis, FixStatus status) const;
+  Fix located(const Hypothesis& hypothesis, const TrackedPose& position, double timestamp_s,
               FixStatus status) const;
-  void widen(Fix& fix, double log_odds, const Place& place, const std::vector<Place>& places) const;
+  void widen(Fix& fix, double log_odds, const Hypothesis& hypothesis,
+             const std::vector<Hypothesis>& hypotheses) const;
 };
 
 namespace {
@@ -96,21 +96,21 @@ Fix unlocated(double timestamp_s, FixStatus status) {
   return fix;
 }
 
-Searching lost_from(const Place& place, double timestamp_s) {
+Searching lost_from(const Hypothesis& hypothesis, double timestamp_s) {
   Searching lost{FixStatus::lost};
-  const double sigma_m = std::max(place.follower->position().sigma_m, kElsewhereM);
-  lost.lost_at = CoarsePosition{timestamp_s, place.position(), sigma_m};
+  const double sigma_m = std::max(hypothesis.tracker->position().sigma_m, kElsewhereM);
+  lost.lost_at = GnssFix{timestamp_s, hypothesis.position(), sigma_m};
   return lost;
 }
 
-// Adds a variance that is alike in each direction of the plan.
-void widen_in_plan(CameraPlacement& camera, double sigma_m) {
+// Adds an isotropic variance in the horizontal plane.
+void widen_in_plan(GeoCameraPose& camera, double sigma_m) {
   camera.covariance[0] += sigma_m * sigma_m;
   camera.covariance[7] += sigma_m * sigma_m;
 }
 
-// Whether the segment leads where the vehicle looks, as far as that is known.
-bool leads_ahead(const RouteLine& line, double along_m, const CoarsePosition& vehicle) {
+// Whether the segment leads in the vehicle's heading, if that is known.
+bool leads_ahead(const RouteLine& line, double along_m, const GnssFix& vehicle) {
   if (!vehicle.heading_deg) return true;
   const double turn_deg = *vehicle.heading_deg - line.heading_deg_at(along_m);
   return std::abs(std::remainder(turn_deg, 360)) <= kMaxStartTurnDeg;
@@ -126,8 +126,8 @@ Localizer::~Localizer() = default;
 Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
-void Localizer::observe(const CoarsePosition& position) {
-  impl_->coarse = position;
+void Localizer::observe(const GnssFix& position) {
+  impl_->gnss = position;
   impl_->provider.want(impl_->wants(position.timestamp_s, *impl_->provider.held()));
 }
 
@@ -136,36 +136,37 @@ void Localizer::observe(const Odometry& odometry) {
   const bool ascends = !impl_->odometry || odometry.timestamp_s > impl_->odometry->timestamp_s;
   if (!is_sound || !ascends) return;
   impl_->odometry = odometry;
-  if (auto* following = std::get_if<Following>(&impl_->state)) {
-    following->place.follower->observe(odometry);
+  if (auto* tracking = std::get_if<Tracking>(&impl_->state)) {
+    tracking->hypothesis.tracker->observe(odometry);
   } else {
     auto& searching = std::get<Searching>(impl_->state);
-    for (Place& place : searching.places) place.follower->observe(odometry);
-    if (searching.left) searching.left->follower->observe(odometry);
+    for (Hypothesis& hypothesis : searching.hypotheses) hypothesis.tracker->observe(odometry);
+    if (searching.left) searching.left->tracker->observe(odometry);
   }
 }
 
-const std::optional<Error>& Localizer::noted_error() const { return impl_->noted; }
+const std::optional<Error>& Localizer::last_error() const { return impl_->last_error; }
 
 Result<Fix> Localizer::localize(const QueryFrame& frame) {
   const std::shared_ptr<const HeldMap> held = impl_->provider.held();
-  SeenFrame seen(frame, *held);
+  SharedFrame shared(frame, *held);
   Result<Fix> fix =
-      std::holds_alternative<Following>(impl_->state) ? impl_->follow(seen) : impl_->search(seen);
+      std::holds_alternative<Tracking>(impl_->state) ? impl_->track(shared) : impl_->search(shared);
   impl_->provider.want(impl_->wants(frame.timestamp_s, *held));
   return fix;
 }
 
 Fix Localizer::fix_at(double timestamp_s) const {
-  const auto* following = std::get_if<Following>(&impl_->state);
-  if (!following) {
+  const auto* tracking = std::get_if<Tracking>(&impl_->state);
+  if (!tracking) {
     return unlocated(timestamp_s, std::get<Searching>(impl_->state).waiting);
   }
-  const Place& place = following->place;
-  const TrackedPosition position = place.follower->position_at(timestamp_s);
-  if (!place.is_on_segment(position.along_m)) return unlocated(timestamp_s, FixStatus::off_map);
-  Fix fix = impl_->located(place, position, timestamp_s, FixStatus::predicted);
-  if (following->doubt) impl_->widen(fix, *following->doubt, place, {});
+  const Hypothesis& hypothesis = tracking->hypothesis;
+  const TrackedPose position = hypothesis.tracker->pose_at(timestamp_s);
+  if (!hypothesis.is_on_segment(position.along_m))
+    return unlocated(timestamp_s, FixStatus::off_map);
+  Fix fix = impl_->located(hypothesis, position, timestamp_s, FixStatus::predicted);
+  if (tracking->doubt) impl_->widen(fix, *tracking->doubt, hypothesis, {});
   return fix;
 }
 
@@ -177,7 +178,7 @@ bool Localizer::wait_for_tiles(double timestamp_s, SteadyTime deadline, const St
   for (;;) {
     const std::shared_ptr<const HeldMap> held = provider.held();
     provider.want(impl_->wants(timestamp_s, *held));
-    // What is held may have told of more to want.
+    // Data that has arrived may have led to further wants.
     if (provider.is_settled() && provider.held() == held) return true;
     const SteadyTime now = std::chrono::steady_clock::now();
     if (is_stopped(stopped) || now >= deadline) return false;
@@ -185,11 +186,10 @@ bool Localizer::wait_for_tiles(double timestamp_s, SteadyTime deadline, const St
   }
 }
 
-// The position, unless it is too old to start from or to contradict.
-std::optional<CoarsePosition> Localizer::Impl::fresh(const std::optional<CoarsePosition>& position,
-                                                     double timestamp_s) const {
-  const bool is_fresh =
-      position && timestamp_s - position->timestamp_s <= settings.max_coarse_age_s;
+// The fix, unless it is too old to start from or to contradict.
+std::optional<GnssFix> Localizer::Impl::fresh(const std::optional<GnssFix>& position,
+                                              double timestamp_s) const {
+  const bool is_fresh = position && timestamp_s - position->timestamp_s <= settings.max_gnss_age_s;
   return is_fresh ? position : std::nullopt;
 }
 
@@ -198,10 +198,11 @@ Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(
   for (const std::shared_ptr<OpenSegment>& segment : segments) {
     if (segment->layer == layer) return segment;
   }
-  Result<std::unique_ptr<Scout>> scout = settings.method.make_scout(*layer, camera, settings.scout);
-  if (!scout) return scout.error();
-  auto segment = std::make_shared<OpenSegment>(OpenSegment{layer, std::move(*scout)});
-  // Those that no place is on are forgotten, the oldest first.
+  Result<std::unique_ptr<Relocalizer>> relocalizer =
+      settings.method.make_relocalizer(*layer, camera, settings.method_settings);
+  if (!relocalizer) return relocalizer.error();
+  auto segment = std::make_shared<OpenSegment>(OpenSegment{layer, std::move(*relocalizer)});
+  // Segments without a hypothesis are closed, the oldest first.
   const auto unused =
       std::ranges::find_if(segments, [](const auto& old) { return old.use_count() == 1; });
   if (segments.size() >= kMaxCandidates && unused != segments.end()) segments.erase(unused);
@@ -209,93 +210,93 @@ Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(
   return segment;
 }
 
-// Segments that pass nearer may be the one that a position is on.
-Surroundings Localizer::Impl::surroundings(const CoarsePosition& around) const {
+// The circle in which segments may be the one that a position is on.
+Surroundings Localizer::Impl::surroundings(const GnssFix& around) const {
   const double radius_m = settings.start_radius_m + settings.start_sigmas * around.sigma_m;
   return {around.position,
           std::min(radius_m, kMaxNearRadiusM - settings.provider.surroundings_margin_m)};
 }
 
-// How far to either side of a position it is looked for the camera.
-double Localizer::Impl::start_reach_m(const CoarsePosition& around, double timestamp_s) const {
+// The half width of the arc length range that is searched around a position.
+double Localizer::Impl::start_reach_m(const GnssFix& around, double timestamp_s) const {
   const double age_s = std::max(0.0, timestamp_s - around.timestamp_s);
   return settings.start_sigmas * around.sigma_m + settings.start_reach_m +
          settings.receiver.speed_mps * age_s;
 }
 
-// Adds the places on segments near to a position that this frame may have been taken from.
-Scouted Localizer::Impl::scout(SeenFrame& frame, const CoarsePosition& around,
-                               Searching& searching) {
+// Adds hypotheses on segments near a position from which this frame may have been taken.
+NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFix& around,
+                                                Searching& searching) {
   auto near = frame.held().segments_near(surroundings(around));
   if (!near) return {std::nullopt, frame.held().around_failure};
-  Scouted scouted;
-  scouted.nearest_m =
+  NearbySearch nearby;
+  nearby.nearest_m =
       near->empty() ? std::numeric_limits<double>::infinity() : near->front().distance_m;
   if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
   for (const NearbySegment& where : *near) {
     const HeldSegment* held = frame.held().find({where.version, where.segment});
     if (held == nullptr || !held->layer) {
-      if (held != nullptr && held->failure) scouted.failure = held->failure;
+      if (held != nullptr && held->failure) nearby.failure = held->failure;
       continue;
     }
     if (!leads_ahead(held->layer->line, where.along_m, around)) continue;
     const Result<std::shared_ptr<OpenSegment>> segment = opened(held->layer);
     if (!segment) {
-      scouted.failure = segment.error();
+      nearby.failure = segment.error();
       continue;
     }
     const double reach_m = start_reach_m(around, frame.timestamp_s());
-    Looked looked = (*segment)->scout->look(
+    Relocalization found = (*segment)->relocalizer->relocalize(
         frame, AlongRange{where.along_m, where.along_m}.widened(reach_m), std::nullopt);
-    if (looked.failure) scouted.failure = looked.failure;
-    for (Sighting& sighting : looked.sightings) {
-      Place place{*segment,
-                  std::move(sighting.follower),
-                  PlaceOdds(settings.odds),
-                  ReceiverEvidence(settings.receiver),
-                  frame.timestamp_s(),
-                  true,
-                  sighting.log_bayes_factor,
-                  sighting.matches};
-      const double along_m = place.follower->position().along_m;
-      if (!place.is_on_segment(along_m)) continue;
-      if (searching.left) place.odds.add(log_density_after(*searching.left, place));
+    if (found.failure) nearby.failure = found.failure;
+    for (RelocalizationCandidate& candidate : found.candidates) {
+      Hypothesis hypothesis{*segment,
+                            std::move(candidate.tracker),
+                            LogOdds(settings.odds),
+                            GnssLikelihood(settings.receiver),
+                            frame.timestamp_s(),
+                            true,
+                            candidate.log_bayes_factor,
+                            candidate.matches};
+      const double along_m = hypothesis.tracker->position().along_m;
+      if (!hypothesis.is_on_segment(along_m)) continue;
+      if (searching.left) hypothesis.odds.add(log_density_after(*searching.left, hypothesis));
       if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)
-        place.follower->observe(*odometry);
-      searching.places.push_back(std::move(place));
+        hypothesis.tracker->observe(*odometry);
+      searching.hypotheses.push_back(std::move(hypothesis));
     }
   }
-  return scouted;
+  return nearby;
 }
 
-// Advances the places that are not at this frame yet.
-void Localizer::Impl::carry(Searching& searching, SeenFrame& frame) {
-  const auto is_over = [&](Place& place) {
-    if (place.timestamp_s == frame.timestamp_s()) return false;
-    const Followed followed = place.advance(frame);
-    if (followed.failure) noted = followed.failure;
-    const bool is_gone = followed.failure && followed.failure->code == ErrorCode::gone;
-    const bool has_left = !place.is_on_segment(place.follower->position().along_m);
-    if (has_left && searching.waiting == FixStatus::lost) searching.leave(std::move(place));
+// Advances the hypotheses that are not at this frame yet.
+void Localizer::Impl::carry(Searching& searching, SharedFrame& frame) {
+  const auto is_over = [&](Hypothesis& hypothesis) {
+    if (hypothesis.timestamp_s == frame.timestamp_s()) return false;
+    const TrackingResult result = hypothesis.advance(frame);
+    if (result.failure) last_error = result.failure;
+    const bool is_gone = result.failure && result.failure->code == ErrorCode::gone;
+    const bool has_left = !hypothesis.is_on_segment(hypothesis.tracker->position().along_m);
+    if (has_left && searching.waiting == FixStatus::lost) searching.leave(std::move(hypothesis));
     return is_gone || has_left;
   };
-  std::erase_if(searching.places, is_over);
+  std::erase_if(searching.hypotheses, is_over);
 }
 
-Result<Fix> Localizer::Impl::search(SeenFrame& frame) {
+Result<Fix> Localizer::Impl::search(SharedFrame& frame) {
   auto& searching = std::get<Searching>(state);
   carry(searching, frame);
-  const std::optional<CoarsePosition> reading = fresh(coarse, frame.timestamp_s());
+  const std::optional<GnssFix> reading = fresh(gnss, frame.timestamp_s());
   const auto around = reading ? reading : fresh(searching.lost_at, frame.timestamp_s());
   if (around) {
-    const Scouted scouted = scout(frame, *around, searching);
-    if (scouted.failure) {
-      if (searching.places.empty()) return *scouted.failure;
-      noted = scouted.failure;
+    const NearbySearch nearby = relocalize_nearby(frame, *around, searching);
+    if (nearby.failure) {
+      if (searching.hypotheses.empty()) return *nearby.failure;
+      last_error = nearby.failure;
     }
-    if (reading && scouted.nearest_m) {
+    if (reading && nearby.nearest_m) {
       const bool is_off =
-          *scouted.nearest_m > settings.start_sigmas * reading->sigma_m + kEndMarginM;
+          *nearby.nearest_m > settings.start_sigmas * reading->sigma_m + kEndMarginM;
       if (is_off) {
         searching.waiting = FixStatus::off_map;
       } else if (searching.waiting == FixStatus::off_map && !searching.left) {
@@ -303,118 +304,122 @@ Result<Fix> Localizer::Impl::search(SeenFrame& frame) {
       }
     }
   }
-  weigh(searching.places, reading, static_cast<std::size_t>(settings.max_places));
+  weigh(searching.hypotheses, reading, static_cast<std::size_t>(settings.max_hypotheses));
   return weighed(searching, frame.timestamp_s());
 }
 
-// The answer while several places may be it.
+// The result while several hypotheses are tested.
 Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
-  if (searching.places.empty()) return unlocated(timestamp_s, searching.waiting);
-  Place& best = searching.places.front();
-  const double log_odds = log_odds_of_first(searching.places);
+  if (searching.hypotheses.empty()) return unlocated(timestamp_s, searching.waiting);
+  Hypothesis& best = searching.hypotheses.front();
+  const double log_odds = log_odds_of_first(searching.hypotheses);
   const bool was_lost = searching.waiting == FixStatus::lost;
   if (log_odds < 0 || (was_lost && !best.measured))
     return unlocated(timestamp_s, searching.waiting);
   if (log_odds < settings.odds.claim || !best.measured || best.apart_m > kAgreedM) {
     Fix fix = located(best, FixStatus::initializing);
-    widen(fix, best.odds.log(), best, searching.places);
+    widen(fix, best.odds.log(), best, searching.hypotheses);
     return fix;
   }
   claim(std::move(best));
-  return located(std::get<Following>(state).place, FixStatus::tracking);
+  return located(std::get<Tracking>(state).hypothesis, FixStatus::tracking);
 }
 
-void Localizer::Impl::claim(Place place) { state = Following{std::move(place)}; }
+void Localizer::Impl::claim(Hypothesis hypothesis) { state = Tracking{std::move(hypothesis)}; }
 
-// Finds the pose anew, where that is due, and compares.
-void Localizer::Impl::look_again(Following& following, SeenFrame& frame) const {
-  Place& place = following.place;
-  const double along_m = place.follower->position().along_m;
-  if (!settings.method.looks_again || !following.second_look.is_due(along_m)) return;
-  const AlongRange around = AlongRange{along_m, along_m}.widened(kSamePlaceM);
-  Looked looked = place.segment->scout->look(frame, around, following.second_look.camera(place));
-  if (!looked.failure) following.second_look.compare(place, std::move(looked.sightings));
+// Relocalizes and compares the poses, if that is due.
+void Localizer::Impl::check_by_relocalization(Tracking& tracking, SharedFrame& frame) const {
+  Hypothesis& hypothesis = tracking.hypothesis;
+  const double along_m = hypothesis.tracker->position().along_m;
+  if (!settings.method.relocalizes_while_tracking || !tracking.relocalization_check.is_due(along_m))
+    return;
+  const AlongRange around = AlongRange{along_m, along_m}.widened(kSameHypothesisM);
+  Relocalization found = hypothesis.segment->relocalizer->relocalize(
+      frame, around, tracking.relocalization_check.camera(hypothesis));
+  if (!found.failure)
+    tracking.relocalization_check.compare(hypothesis, std::move(found.candidates));
 }
 
-Result<Fix> Localizer::Impl::follow(SeenFrame& frame) {
-  auto& following = std::get<Following>(state);
-  Place& place = following.place;
-  if (!place.is_on_segment(place.follower->position_at(frame.timestamp_s()).along_m)) {
+Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
+  auto& tracking = std::get<Tracking>(state);
+  Hypothesis& hypothesis = tracking.hypothesis;
+  if (!hypothesis.is_on_segment(hypothesis.tracker->pose_at(frame.timestamp_s()).along_m)) {
     Searching left;
-    left.leave(std::move(place));
+    left.leave(std::move(hypothesis));
     state = std::move(left);
-    const Result<Fix> elsewhere = search(frame);  // perhaps another segment begins here
+    const Result<Fix> elsewhere = search(frame);  // another segment may begin here
     if (elsewhere && elsewhere->along_m) return elsewhere;
     return unlocated(frame.timestamp_s(), FixStatus::off_map);
   }
-  const Followed followed = place.advance(frame);
-  if (followed.failure) noted = followed.failure;
-  if (followed.failure && followed.failure->code == ErrorCode::gone) {  // rebuilt meanwhile
-    state = lost_from(place, frame.timestamp_s());
+  const TrackingResult result = hypothesis.advance(frame);
+  if (result.failure) last_error = result.failure;
+  if (result.failure && result.failure->code == ErrorCode::gone) {  // the map was rebuilt
+    state = lost_from(hypothesis, frame.timestamp_s());
     return search(frame);
   }
-  following.doubt.reset();
-  if (place.measured) look_again(following, frame);
-  place.weigh(place.log_bayes_factor, fresh(coarse, frame.timestamp_s()));
-  if (place.measured && place.odds.log() >= settings.odds.hold) {
-    following.frames_without_measurement = 0;
-    return located(place, FixStatus::tracking);
+  tracking.doubt.reset();
+  if (hypothesis.measured) check_by_relocalization(tracking, frame);
+  hypothesis.weigh(hypothesis.log_bayes_factor, fresh(gnss, frame.timestamp_s()));
+  if (hypothesis.measured && hypothesis.odds.log() >= settings.odds.hold) {
+    tracking.frames_without_measurement = 0;
+    return located(hypothesis, FixStatus::tracking);
   }
-  const bool is_lost = ++following.frames_without_measurement > settings.max_predicted_frames ||
-                       place.odds.log() < settings.odds.give_up;
+  const bool is_lost = ++tracking.frames_without_measurement > settings.max_predicted_frames ||
+                       hypothesis.odds.log() < settings.odds.give_up;
   if (!is_lost) {
-    Fix fix = located(place, FixStatus::predicted);
-    // What speaks against the place may be a truck before it, or that it is elsewhere.
-    const bool in_doubt = place.log_bayes_factor < kDoubt || place.odds.log() < settings.odds.hold;
-    if (in_doubt) following.doubt = std::min(place.odds.log(), settings.odds.doubt);
-    if (following.doubt) widen(fix, *following.doubt, place, {});
+    Fix fix = located(hypothesis, FixStatus::predicted);
+    // The contradiction may be an occlusion, or the vehicle may be elsewhere.
+    const bool in_doubt =
+        hypothesis.log_bayes_factor < kDoubt || hypothesis.odds.log() < settings.odds.hold;
+    if (in_doubt) tracking.doubt = std::min(hypothesis.odds.log(), settings.odds.doubt);
+    if (tracking.doubt) widen(fix, *tracking.doubt, hypothesis, {});
     return fix;
   }
-  Searching lost = lost_from(place, frame.timestamp_s());
-  lost.places.push_back(std::move(place));
+  Searching lost = lost_from(hypothesis, frame.timestamp_s());
+  lost.hypotheses.push_back(std::move(hypothesis));
   state = std::move(lost);
   return search(frame);
 }
 
-Fix Localizer::Impl::located(const Place& place, FixStatus status) const {
-  Fix fix = located(place, place.follower->position(), place.timestamp_s, status);
-  fix.matches = place.measured ? place.matches : 0;
+Fix Localizer::Impl::located(const Hypothesis& hypothesis, FixStatus status) const {
+  Fix fix = located(hypothesis, hypothesis.tracker->position(), hypothesis.timestamp_s, status);
+  fix.matches = hypothesis.measured ? hypothesis.matches : 0;
   return fix;
 }
 
-Fix Localizer::Impl::located(const Place& place, const TrackedPosition& position,
+Fix Localizer::Impl::located(const Hypothesis& hypothesis, const TrackedPose& position,
                              double timestamp_s, FixStatus status) const {
-  const RouteLine& line = place.layer().line;
+  const RouteLine& line = hypothesis.layer().line;
   Fix fix = unlocated(timestamp_s, status);
-  fix.version = place.layer().key.version;
-  fix.segment = place.layer().key.segment;
+  fix.version = hypothesis.layer().key.version;
+  fix.segment = hypothesis.layer().key.segment;
   fix.along_m = std::clamp(position.along_m, 0.0, line.length_m());
-  fix.sigma_m = std::hypot(position.sigma_m, place.apart_m);
+  fix.sigma_m = std::hypot(position.sigma_m, hypothesis.apart_m);
   fix.position = line.point_at(*fix.along_m);
-  if (position.across) {
-    fix.lateral_m = position.across->lateral_m;
-    fix.lateral_sigma_m = std::hypot(position.across->lateral_sigma_m, place.apart_m);
-    fix.camera = position.across->camera;
-    widen_in_plan(*fix.camera, place.apart_m);
+  if (position.full) {
+    fix.lateral_m = position.full->lateral_m;
+    fix.lateral_sigma_m = std::hypot(position.full->lateral_sigma_m, hypothesis.apart_m);
+    fix.camera = position.full->camera;
+    widen_in_plan(*fix.camera, hypothesis.apart_m);
     fix.heading_deg = fix.camera->heading_deg;
     fix.position = fix.camera->position;
   }
   return fix;
 }
 
-// A place that is not certain: its sigma is that of all that it may be, about where it is said to
-// be. Elsewhere is where the receiver says, as far as it knows.
-void Localizer::Impl::widen(Fix& fix, double log_odds, const Place& place,
-                            const std::vector<Place>& places) const {
-  const GeoPoint here = place.position();
+// Widens the sigmas of an uncertain hypothesis to cover all hypotheses and "elsewhere", which is at
+// the GNSS fix if there is one.
+void Localizer::Impl::widen(Fix& fix, double log_odds, const Hypothesis& hypothesis,
+                            const std::vector<Hypothesis>& hypotheses) const {
+  const GeoPoint here = hypothesis.position();
   double weights = 1 + std::exp(log_odds);
   double square_m2 = kUnknownM * kUnknownM;
-  if (const auto reading = fresh(coarse, place.timestamp_s)) {
+  if (const auto reading = fresh(gnss, hypothesis.timestamp_s)) {
     const double sigma_m = std::max(kElsewhereM, reading->sigma_m);
     square_m2 = sigma_m * sigma_m + std::pow(geodesic_distance_m(here, reading->position), 2);
   }
-  for (const Place& other : places) {
-    if (&other == &place) continue;
+  for (const Hypothesis& other : hypotheses) {
+    if (&other == &hypothesis) continue;
     const double weight = std::exp(other.odds.log());
     weights += weight;
     square_m2 += weight * std::pow(geodesic_distance_m(here, other.position()), 2);
@@ -425,30 +430,30 @@ void Localizer::Impl::widen(Fix& fix, double log_odds, const Place& place,
   if (fix.camera) widen_in_plan(*fix.camera, spread_m);
 }
 
-// What a frame of that time, and those after it, need of the map.
+// The map data that a frame at that time, and those after it, need.
 Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
   enum : int { kNow, kPerhaps, kAhead };
-  const WindowReach& reach = settings.scout.reach;
+  const WindowReach& reach = settings.method_settings.reach;
   Wants wants;
   const auto want = [&](const SegmentKey& key, const AlongRange& range, int priority) {
     wants.tiles.push_back({key, range, priority});
   };
-  const auto want_place = [&](const Place& place) {
-    // Beside what is followed, what is looked at anew.
-    constexpr double kSecondLookM = kSamePlaceM + 10;
-    const AlongRange needed = place.follower->needed(timestamp_s).widened(kSecondLookM);
-    want(place.layer().key, reach.around(needed), kNow);
+  const auto want_place = [&](const Hypothesis& hypothesis) {
+    // The region tracked, plus the region of relocalization.
+    constexpr double kSecondLookM = kSameHypothesisM + 10;
+    const AlongRange needed = hypothesis.tracker->needed(timestamp_s).widened(kSecondLookM);
+    want(hypothesis.layer().key, reach.around(needed), kNow);
   };
-  std::optional<CoarsePosition> around = fresh(coarse, timestamp_s);
-  const auto* following = std::get_if<Following>(&state);
-  if (following) {
-    want_place(following->place);
-    const double at_m = following->place.follower->position().along_m;
-    want(following->place.layer().key, {at_m, at_m + settings.prefetch_m}, kAhead);
-    if (!around) around = CoarsePosition{timestamp_s, following->place.position(), 0};
+  std::optional<GnssFix> around = fresh(gnss, timestamp_s);
+  const auto* tracking = std::get_if<Tracking>(&state);
+  if (tracking) {
+    want_place(tracking->hypothesis);
+    const double at_m = tracking->hypothesis.tracker->position().along_m;
+    want(tracking->hypothesis.layer().key, {at_m, at_m + settings.prefetch_m}, kAhead);
+    if (!around) around = GnssFix{timestamp_s, tracking->hypothesis.position(), 0};
   } else {
     const auto& searching = std::get<Searching>(state);
-    for (const Place& place : searching.places) want_place(place);
+    for (const Hypothesis& hypothesis : searching.hypotheses) want_place(hypothesis);
     if (!around) around = fresh(searching.lost_at, timestamp_s);
   }
   if (!around) return wants;
@@ -458,13 +463,13 @@ Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
   if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
   for (const NearbySegment& where : *near) {
     const SegmentKey key = {where.version, where.segment};
-    // Where the place may be found again; other segments where this one ends.
-    const bool is_of_use = !following || key == following->place.layer().key ||
-                           following->place.is_near_end(settings.prefetch_m);
+    // Segments on which the vehicle may be relocalized; other segments near the end of this one.
+    const bool is_of_use = !tracking || key == tracking->hypothesis.layer().key ||
+                           tracking->hypothesis.is_near_end(settings.prefetch_m);
     if (!is_of_use) continue;
     const AlongRange looked_at =
         AlongRange{where.along_m, where.along_m}.widened(start_reach_m(*around, timestamp_s));
-    want(key, reach.around(looked_at), following ? kPerhaps : kNow);
+    want(key, reach.around(looked_at), tracking ? kPerhaps : kNow);
   }
   return wants;
 }

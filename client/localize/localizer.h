@@ -1,4 +1,4 @@
-// The localizer: frames and coarse positions in, fixes out.
+// The localizer: frames, GNSS fixes and odometry in, fixes out.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,12 @@
 #include "client/fetch/provider_state.h"
 #include "client/fetch/stopped.h"
 #include "client/fetch/tile_provider.h"
-#include "client/localize/coarse_position.h"
 #include "client/localize/fix.h"
+#include "client/localize/gnss_fix.h"
+#include "client/localize/gnss_likelihood.h"
 #include "client/localize/landmark_method.h"
-#include "client/localize/place_odds.h"
+#include "client/localize/log_odds.h"
 #include "client/localize/query.h"
-#include "client/localize/receiver_evidence.h"
 #include "schema/geo/odometry.h"
 #include "schema/geo/pinhole.h"
 
@@ -22,21 +22,21 @@ namespace milepost {
 
 struct LocalizerSettings {
   Method method = landmark_method();
-  double start_radius_m = 30;   // segments farther from the coarse position are not looked at
-  double start_sigmas = 3;      // of the coarse position, searched along the segment
-  double start_reach_m = 5;     // ... and so much more
-  double max_coarse_age_s = 3;  // older positions start and contradict nothing
-  PlaceOddsSettings odds;
-  ReceiverEvidenceSettings receiver;
-  int max_places = 5;            // that are weighed against each other
-  int max_predicted_frames = 8;  // frames without measurement before the vehicle counts as lost
-  double prefetch_m = 300;       // wanted ahead
-  ScoutSettings scout;
+  double start_radius_m = 30;  // segments farther from the GNSS fix are not searched
+  double start_sigmas = 3;     // of the GNSS fix, searched along the segment
+  double start_reach_m = 5;    // ... plus this
+  double max_gnss_age_s = 3;   // older fixes neither start nor contradict a hypothesis
+  LogOddsSettings odds;
+  GnssLikelihoodSettings receiver;
+  int max_hypotheses = 5;        // tested against each other
+  int max_predicted_frames = 8;  // frames without a measurement until the vehicle counts as lost
+  double prefetch_m = 300;       // length of road to prefetch ahead
+  MethodSettings method_settings;
   ProviderSettings provider;
 };
 
-// Not safe to use from several threads at once. The map comes by threads of the localizer's own:
-// a frame takes what has arrived, and waits for nothing.
+// Not safe to use from several threads at once. Background threads of the localizer load the map: a
+// frame uses the data that has arrived and waits for nothing.
 class Localizer {
  public:
   Localizer(const std::shared_ptr<MapSource>& source, const Camera& camera,
@@ -45,33 +45,34 @@ class Localizer {
   Localizer(Localizer&&) noexcept;
   Localizer& operator=(Localizer&&) noexcept;
 
-  // What the receiver says; of several the latest counts.
-  void observe(const CoarsePosition& position);
+  // Adds a GNSS fix; of several the latest is used.
+  void observe(const GnssFix& position);
 
-  // What the wheels say, of methods that carry on by them (milepost) the motion between frames. A
-  // reading is told before the first frame that is later than it; readings ascend, and others are
-  // left out.
+  // Adds an odometry reading; methods that use odometry (milepost) propagate the pose with it
+  // between frames. Pass each reading before the first frame with a later timestamp. Readings that
+  // are not finite or not ascending in time are ignored.
   void observe(const Odometry& odometry);
 
-  // The fix of the next frame, by what is held of the map. REQUIRES: timestamps ascend strictly.
-  // Errors: what the map source says when there is nothing to go on with (unavailable, corrupt,
-  // ...), and invalid_input where the map lacks the method's layer. The localizer stays usable: the
-  // next frame may succeed. Once tracking, a source that fails is noted and driven on without.
+  // The fix of the next frame, by the map data held. REQUIRES: timestamps ascend strictly. Errors:
+  // those of the map source while there is no map data to continue with (unavailable, corrupt,
+  // ...); invalid_input if the map lacks the method's layer. The localizer remains usable: the next
+  // frame may succeed. While tracking, a failing source is recorded in last_error() and
+  // localization continues without it.
   Result<Fix> localize(const QueryFrame& frame);
 
-  // Where the latest fix has come to by a time after its frame, as the motion is known.
-  // REQUIRES: not before the latest frame.
+  // The latest fix propagated by the estimated motion to a time after its frame. REQUIRES: not
+  // before the latest frame.
   Fix fix_at(double timestamp_s) const;
 
-  // What is held and wanted of the map.
+  // The map data held and wanted.
   const TileProvider& provider() const;
 
-  // The latest failure of the source that did not keep localize() from answering.
-  const std::optional<Error>& noted_error() const;
+  // The latest error of the source that did not stop localize().
+  const std::optional<Error>& last_error() const;
 
-  // For replays of recorded drives, so that their fixes are the same each time: waits until what
-  // a frame of that time needs of the map is held or was asked for in vain, at the latest until
-  // `deadline`, or until it is stopped. Whether it is so.
+  // For reproducible replays of recorded drives: blocks until the map data that a frame at that
+  // time needs is held or its request has failed, until `deadline`, or until stopped. Returns
+  // whether the data is settled.
   bool wait_for_tiles(double timestamp_s, SteadyTime deadline, const Stopped& stopped = {});
 
  private:

@@ -1,4 +1,4 @@
-// How a localizer recognizes places: the seam between it and a method.
+// The interface between a localizer and a localization method.
 #pragma once
 
 #include <functional>
@@ -13,28 +13,28 @@
 
 namespace milepost {
 
-class Scout;
+class Relocalizer;
 struct SegmentLayer;
 
-// What every method is told.
-struct ScoutSettings {
-  int min_start_support = 6;  // tracklets or landmarks that must agree before a start is weighed
+// Settings common to all methods.
+struct MethodSettings {
+  int min_start_support = 6;  // inlier tracklets or landmarks for a start
   WindowReach reach;
-  // Called by localize() for each estimate of a frame that is followed by tracklets or landmarks;
-  // may be empty.
+  // Called by localize() for each estimate of a frame tracked by tracklets or landmarks; may be
+  // empty.
   std::function<void(const TrackletEstimate&)> on_estimate = {};
 };
 
-// A scout for one segment. REQUIRES: the layer outlives the scout and its followers.
-// Errors: corrupt (the layer holds other items than the method needs).
-using MakeScout = std::function<Result<std::unique_ptr<Scout>>(
-    const SegmentLayer& layer, const Camera& camera, const ScoutSettings& settings)>;
+// Creates the relocalizer of one segment. REQUIRES: the layer outlives the relocalizer and its
+// trackers. Errors: corrupt (the layer holds other items than the method needs).
+using MakeRelocalizer = std::function<Result<std::unique_ptr<Relocalizer>>(
+    const SegmentLayer& layer, const Camera& camera, const MethodSettings& settings)>;
 
 struct Method {
   std::string name;
-  std::string layer;  // of the map, that it needs
-  MakeScout make_scout;
-  bool looks_again = false;  // while a place is followed, its pose is found anew now and then
+  std::string layer;  // of the map that it needs
+  MakeRelocalizer make_relocalizer;
+  bool relocalizes_while_tracking = false;  // to check the tracked pose from time to time
 };
 
 }  // namespace milepost

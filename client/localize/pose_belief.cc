@@ -5,80 +5,89 @@
 #include <Eigen/Dense>
 
 namespace milepost {
+namespace {
 
-PoseBelief predicted(const PoseBelief& belief, double elapsed_s, double slope,
-                     const PoseMotionSettings& settings) {
-  PoseBelief next = belief;
-  const double t = elapsed_s;
-  const double speed = belief.mean[kSpeed];
-  const double yaw_rate = belief.mean[kYawRate];
-  const double course_rad =
-      belief.mean[kHeading] - belief.mean[kMounting] + yaw_rate * t / 2;  // half way
-  const double s = std::sin(course_rad);
-  const double c = std::cos(course_rad);
-  next.mean[kEast] += speed * t * s;
-  next.mean[kNorth] += speed * t * c;
-  next.mean[kUp] += speed * t * slope;
-  next.mean[kHeading] += yaw_rate * t;
-
-  StateMatrix by_state = StateMatrix::Identity();
-  by_state(kEast, kSpeed) = t * s;
-  by_state(kNorth, kSpeed) = t * c;
-  by_state(kUp, kSpeed) = t * slope;
-  by_state(kEast, kHeading) = speed * t * c;
-  by_state(kNorth, kHeading) = -speed * t * s;
-  by_state(kEast, kMounting) = -speed * t * c;
-  by_state(kNorth, kMounting) = speed * t * s;
-  by_state(kEast, kYawRate) = speed * t * c * t / 2;
-  by_state(kNorth, kYawRate) = -speed * t * s * t / 2;
-  by_state(kHeading, kYawRate) = t;
-
-  // White noise of acceleration and of yaw acceleration, integrated over the time.
-  StateMatrix noise = StateMatrix::Zero();
+// The process noise Q: white noise of acceleration and yaw acceleration, integrated over `t`
+// seconds, and the random walks of position and mounting. `ahead` is the direction of travel.
+StateMatrix process_noise(double t, const Eigen::Vector2d& ahead,
+                          const PoseMotionSettings& settings) {
+  StateMatrix Q = StateMatrix::Zero();
   const double a = settings.acceleration_sigma * settings.acceleration_sigma;
-  const Eigen::Vector2d ahead(s, c);
-  noise.block<2, 2>(kEast, kEast) = a * t * t * t / 3 * ahead * ahead.transpose();
-  noise.block<2, 1>(kEast, kSpeed) = a * t * t / 2 * ahead;
-  noise.block<1, 2>(kSpeed, kEast) = a * t * t / 2 * ahead.transpose();
-  noise(kSpeed, kSpeed) = a * t;
+  Q.block<2, 2>(kEast, kEast) = a * t * t * t / 3 * ahead * ahead.transpose();
+  Q.block<2, 1>(kEast, kSpeed) = a * t * t / 2 * ahead;
+  Q.block<1, 2>(kSpeed, kEast) = a * t * t / 2 * ahead.transpose();
+  Q(kSpeed, kSpeed) = a * t;
   const double w = settings.yaw_acceleration_sigma * settings.yaw_acceleration_sigma;
-  noise(kHeading, kHeading) = w * t * t * t / 3;
-  noise(kHeading, kYawRate) = noise(kYawRate, kHeading) = w * t * t / 2;
-  noise(kYawRate, kYawRate) = w * t;
+  Q(kHeading, kHeading) = w * t * t * t / 3;
+  Q(kHeading, kYawRate) = Q(kYawRate, kHeading) = w * t * t / 2;
+  Q(kYawRate, kYawRate) = w * t;
   const double slip = settings.slip_sigma * settings.slip_sigma * t;
-  for (const int i : {kEast, kNorth, kUp}) noise(i, i) += slip;
-  noise(kMounting, kMounting) = settings.mounting_sigma * settings.mounting_sigma * t;
+  for (const int i : {kEast, kNorth, kUp}) Q(i, i) += slip;
+  Q(kMounting, kMounting) = settings.mounting_sigma * settings.mounting_sigma * t;
+  return Q;
+}
 
-  next.covariance = by_state * belief.covariance * by_state.transpose() + noise;
+}  // namespace
+
+PoseBelief predict(const PoseBelief& belief, double elapsed_s, double slope,
+                   const PoseMotionSettings& settings) {
+  const double t = elapsed_s;
+  const StateVector& x = belief.x;
+  const double speed = x[kSpeed];
+  const double mean_course_rad = x[kHeading] - x[kMounting] + x[kYawRate] * t / 2;
+  const double s = std::sin(mean_course_rad);
+  const double c = std::cos(mean_course_rad);
+
+  PoseBelief next = belief;
+  next.x[kEast] += speed * t * s;
+  next.x[kNorth] += speed * t * c;
+  next.x[kUp] += speed * t * slope;
+  next.x[kHeading] += x[kYawRate] * t;
+
+  StateMatrix F = StateMatrix::Identity();  // Jacobian of the prediction
+  F(kEast, kSpeed) = t * s;
+  F(kNorth, kSpeed) = t * c;
+  F(kUp, kSpeed) = t * slope;
+  F(kEast, kHeading) = speed * t * c;
+  F(kNorth, kHeading) = -speed * t * s;
+  F(kEast, kMounting) = -speed * t * c;
+  F(kNorth, kMounting) = speed * t * s;
+  F(kEast, kYawRate) = speed * t * c * t / 2;
+  F(kNorth, kYawRate) = -speed * t * s * t / 2;
+  F(kHeading, kYawRate) = t;
+
+  next.P = F * belief.P * F.transpose() + process_noise(t, {s, c}, settings);
   return next;
 }
 
-PoseBelief tilted(const PoseBelief& belief, const PoseMotionSettings& settings) {
+PoseBelief add_tilt_noise(const PoseBelief& belief, const PoseMotionSettings& settings) {
   PoseBelief next = belief;
   for (const int i : {kPitch, kRoll})
-    next.covariance(i, i) += settings.tilt_sigma_rad * settings.tilt_sigma_rad;
+    next.P(i, i) += settings.tilt_sigma_rad * settings.tilt_sigma_rad;
   return next;
 }
 
-PoseBelief with_wheels(const PoseBelief& belief, double speed_mps, double yaw_rate,
-                       const WheelSettings& settings) {
-  const double scale = 1 + belief.mean[kWheelScale];
-  Eigen::Matrix<double, 2, kStates> observe = Eigen::Matrix<double, 2, kStates>::Zero();
-  observe(0, kSpeed) = scale;
-  observe(0, kWheelScale) = belief.mean[kSpeed];
-  observe(1, kYawRate) = observe(1, kYawRateBias) = 1;
-  const Eigen::Vector2d expected(scale * belief.mean[kSpeed],
-                                 belief.mean[kYawRate] + belief.mean[kYawRateBias]);
+PoseBelief odometry_update(const PoseBelief& belief, double speed_mps, double yaw_rate,
+                           const OdometrySettings& settings) {
+  const StateVector& x = belief.x;
+  const StateMatrix& P = belief.P;
+  const double scale = 1 + x[kOdometryScale];
+  const Eigen::Vector2d z(speed_mps, yaw_rate);                               // the measurement ...
+  const Eigen::Vector2d h(scale * x[kSpeed], x[kYawRate] + x[kYawRateBias]);  // ... as predicted
+  Eigen::Matrix<double, 2, kStates> H = Eigen::Matrix<double, 2, kStates>::Zero();  // dh/dx
+  H(0, kSpeed) = scale;
+  H(0, kOdometryScale) = x[kSpeed];
+  H(1, kYawRate) = H(1, kYawRateBias) = 1;
   const Eigen::Vector2d sigmas(settings.speed_sigma_mps, settings.yaw_rate_sigma);
-  const Eigen::Matrix2d noise = sigmas.cwiseAbs2().asDiagonal();
-  const Eigen::Matrix2d innovation = observe * belief.covariance * observe.transpose() + noise;
-  const Eigen::Matrix<double, kStates, 2> gain =
-      belief.covariance * observe.transpose() * innovation.inverse();
-  const StateMatrix keep = StateMatrix::Identity() - gain * observe;
-  PoseBelief with;
-  with.mean = belief.mean + gain * (Eigen::Vector2d(speed_mps, yaw_rate) - expected);
-  with.covariance = keep * belief.covariance * keep.transpose() + gain * noise * gain.transpose();
-  return with;
+  const Eigen::Matrix2d R = sigmas.cwiseAbs2().asDiagonal();  // measurement noise
+  const Eigen::Matrix2d S = H * P * H.transpose() + R;        // innovation covariance
+  const Eigen::Matrix<double, kStates, 2> K = P * H.transpose() * S.inverse();  // gain
+  const StateMatrix I_KH = StateMatrix::Identity() - K * H;
+
+  PoseBelief updated;
+  updated.x = x + K * (z - h);
+  updated.P = I_KH * P * I_KH.transpose() + K * R * K.transpose();  // Joseph form
+  return updated;
 }
 
 }  // namespace milepost

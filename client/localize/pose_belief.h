@@ -1,4 +1,4 @@
-// What the localizer believes of the camera's pose and motion, and how both go on.
+// The state of the localizer's filter: the camera's pose and motion, and their prediction.
 #pragma once
 
 #include <cmath>
@@ -10,11 +10,12 @@
 
 namespace milepost {
 
-// The state: the camera's pose in a tangent frame; how far its calibration is off, which is learned
-// on the way: the logarithm of the true focal length over the given one, and the shift of the
-// principal point in focal lengths; the vehicle's speed and yaw rate; and, learned on the way, too:
-// the yaw of the camera's mounting against the direction of travel (clockwise), and by how much the
-// wheels tell too much, as part of the speed and as radians a second of the yaw rate.
+// The components of the state x: the camera's pose in a local tangent frame; corrections of its
+// calibration, estimated online: the logarithm of the true over the given focal length, and the
+// shift of the principal point in focal lengths; the vehicle's speed and yaw rate; and, also
+// estimated online, the yaw of the camera's mounting relative to the direction of travel
+// (clockwise), the relative excess of odometry speed, and the bias of the odometry yaw rate
+// (rad/s).
 enum PoseState : int {
   kEast,
   kNorth,
@@ -28,7 +29,7 @@ enum PoseState : int {
   kSpeed,
   kYawRate,
   kMounting,
-  kWheelScale,
+  kOdometryScale,
   kYawRateBias,
   kStates
 };
@@ -36,19 +37,18 @@ enum PoseState : int {
 using StateVector = Eigen::Matrix<double, kStates, 1>;
 using StateMatrix = Eigen::Matrix<double, kStates, kStates>;
 
+// A Gaussian with mean x and covariance P.
 struct PoseBelief {
-  StateVector mean = StateVector::Zero();  // metres, radians, seconds
-  StateMatrix covariance = StateMatrix::Zero();
+  StateVector x = StateVector::Zero();  // metres, radians, seconds
+  StateMatrix P = StateMatrix::Zero();
 
-  CameraPose pose() const {
-    return {mean.segment<3>(kEast), mean[kHeading], mean[kPitch], mean[kRoll]};
-  }
-  // The camera as it is believed to be, from the one given.
+  CameraPose pose() const { return {x.segment<3>(kEast), x[kHeading], x[kPitch], x[kRoll]}; }
+  // The given camera with the estimated corrections.
   Pinhole camera(const Pinhole& given) const {
-    const double factor = std::exp(mean[kLogFocal]);
+    const double factor = std::exp(x[kLogFocal]);
     return {given.focal_x_px * factor, given.focal_y_px * factor,
-            given.principal_x_px + given.focal_x_px * mean[kPrincipalX],
-            given.principal_y_px + given.focal_y_px * mean[kPrincipalY]};
+            given.principal_x_px + given.focal_x_px * x[kPrincipalX],
+            given.principal_y_px + given.focal_y_px * x[kPrincipalY]};
   }
 };
 
@@ -56,26 +56,28 @@ struct PoseMotionSettings {
   double acceleration_sigma = 2.0;      // m/s^2 / sqrt(Hz)
   double yaw_acceleration_sigma = 0.4;  // rad/s^2 / sqrt(Hz)
   double slip_sigma = 0.05;             // m / sqrt(s), in each direction
-  double tilt_sigma_rad = 0.012;        // of pitch and roll from frame to frame, whatever the time
+  double tilt_sigma_rad = 0.012;        // of pitch and roll, per frame
   double mounting_sigma = 0.001;        // rad / sqrt(s)
 };
 
-// What the wheels' word is worth, beside the errors that last.
-struct WheelSettings {
+// White noise of odometry, in addition to its scale error and bias.
+struct OdometrySettings {
   double speed_sigma_mps = 0.1;
   double yaw_rate_sigma = 0.01;  // rad/s
 };
 
-// The belief `elapsed_s` later: constant speed and yaw rate. `slope` is the road's, upwards.
+// Prediction by `elapsed_s` with constant speed and yaw rate. `slope` is that of the road, upwards.
 // REQUIRES: elapsed_s >= 0.
-PoseBelief predicted(const PoseBelief& belief, double elapsed_s, double slope,
-                     const PoseMotionSettings& settings);
+PoseBelief predict(const PoseBelief& belief, double elapsed_s, double slope,
+                   const PoseMotionSettings& settings);
 
-// The belief in the next frame, in which the camera may have tilted, whatever the time.
-PoseBelief tilted(const PoseBelief& belief, const PoseMotionSettings& settings);
+// Adds the process noise of pitch and roll from one frame to the next, which does not depend on
+// time.
+PoseBelief add_tilt_noise(const PoseBelief& belief, const PoseMotionSettings& settings);
 
-// The belief with what the wheels say at its time; the yaw rate clockwise, in radians a second.
-PoseBelief with_wheels(const PoseBelief& belief, double speed_mps, double yaw_rate,
-                       const WheelSettings& settings);
+// The Kalman update with an odometry reading at the belief's time; the yaw rate in rad/s,
+// clockwise.
+PoseBelief odometry_update(const PoseBelief& belief, double speed_mps, double yaw_rate,
+                           const OdometrySettings& settings);
 
 }  // namespace milepost

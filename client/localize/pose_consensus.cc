@@ -9,8 +9,8 @@
 namespace milepost {
 namespace {
 
-// Pairs to draw until one of two that agree is among them, as certainly as that, where a part of
-// all agrees.
+// The number of pairs to draw until, with this confidence, one of them consists of inliers only,
+// for a given inlier ratio (RANSAC).
 double enough_samples(double agreeing_part, double confidence) {
   return std::log(1 - confidence) / std::log1p(-std::min(0.999, agreeing_part * agreeing_part));
 }
@@ -22,9 +22,9 @@ std::optional<PoseEstimate> estimate_by_consensus(const PoseSolver& solver,
                                                   const std::vector<LandmarkMatch>& matches,
                                                   const ConsensusSettings& settings) {
   if (matches.size() < 2) return std::nullopt;
-  const StateMatrix before_information = before.covariance.inverse();
+  const StateMatrix before_information = before.P.inverse();
   std::mt19937 draws(settings.seed);
-  StateVector best = before.mean;
+  StateVector best = before.x;
   std::ptrdiff_t most = 0;
   double samples = settings.samples;
   for (int i = 0; i < samples; ++i) {
@@ -48,13 +48,13 @@ std::optional<PoseEstimate> estimate_by_consensus(const PoseSolver& solver,
 
 std::vector<PositionEstimate> along_by_scale(const std::vector<LandmarkMatch>& matches,
                                              const std::vector<Feature>& features,
-                                             const std::vector<PlacedLandmark>& landmarks,
+                                             const std::vector<LocalLandmark>& landmarks,
                                              const Pinhole& camera, const RouteLine& line,
                                              const LocalFrame& window, double scale_sigma) {
   std::vector<PositionEstimate> estimates;
   estimates.reserve(matches.size());
   for (const LandmarkMatch& match : matches) {
-    const PlacedLandmark& landmark = landmarks[match.landmark];
+    const LocalLandmark& landmark = landmarks[match.landmark];
     const double depth_m = landmark.size_m * camera.focal_px() / features[match.feature].scale_px;
     const double middle_m = (landmark.along.from_m + landmark.along.to_m) / 2;
     const EnuPoint middle = window.enu_from_geo(line.point_at(middle_m));

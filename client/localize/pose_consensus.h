@@ -1,5 +1,4 @@
-// The pose that most matches agree on, where it is not known well enough to search for each
-// landmark in its place.
+// Sample consensus (RANSAC) of a pose, for when it is not known well enough for guided matching.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +11,26 @@
 namespace milepost {
 
 struct ConsensusSettings {
-  int samples = 200;            // pairs of matches that propose a pose, at most ...
-  double confidence = 0.9999;   // ... and until this certain that one of them is right
-  double agreement_sigmas = 3;  // of a match's pixel, to agree with it
+  int samples = 200;            // maximum number of pairs of matches drawn ...
+  double confidence = 0.9999;   // ... until one is free of outliers with this confidence
+  double agreement_sigmas = 3;  // pixel residual of an inlier
   std::uint32_t seed = 1;       // of the draws
 };
 
-// Sample consensus over pairs of matches, each completed to a pose by the belief before, then the
-// estimate from all matches. Nothing for fewer than two matches. The same input gives the same
-// estimate.
+// Sample consensus over pairs of matches, each completed to a pose by the prior belief `before`,
+// then the estimate from all matches. None for fewer than two matches. The same input gives the
+// same estimate.
 std::optional<PoseEstimate> estimate_by_consensus(const PoseSolver& solver,
                                                   const PoseBelief& before,
                                                   const std::vector<LandmarkMatch>& matches,
                                                   const ConsensusSettings& settings);
 
-// What the scale of each match says of along, the camera looking down the line (the tracklet
-// paper's Eq. 3 with -1/scale for its variable). `window` is the frame of the landmarks.
+// The arc length estimated from the scale of each match, for a camera that looks along the line
+// (the tracklet paper's Eq. 3 with the variable -1/scale). `window` is the tangent frame of the
+// landmarks.
 std::vector<PositionEstimate> along_by_scale(const std::vector<LandmarkMatch>& matches,
                                              const std::vector<Feature>& features,
-                                             const std::vector<PlacedLandmark>& landmarks,
+                                             const std::vector<LocalLandmark>& landmarks,
                                              const Pinhole& camera, const RouteLine& line,
                                              const LocalFrame& window, double scale_sigma);
 

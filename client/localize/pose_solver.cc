@@ -10,7 +10,7 @@
 namespace milepost {
 namespace {
 
-constexpr int kPoseStates = kPrincipalY + 1;  // that the image depends on
+constexpr int kPoseStates = kPrincipalY + 1;  // states that the image depends on
 
 using PoseRow = Eigen::Matrix<double, 1, kPoseStates>;
 
@@ -41,7 +41,7 @@ Eigen::Matrix3d rolled_by_roll(double roll_rad) {
 
 }  // namespace
 
-// A state as all matches are seen from it.
+// A state with the rotations and derivatives shared by all matches.
 struct PoseSolver::View {
   View(const StateVector& state, const Pinhole& given)
       : pose(PoseBelief{state, {}}.pose()),
@@ -61,17 +61,17 @@ struct PoseSolver::View {
   Eigen::Matrix3d by_heading, by_pitch, by_roll;  // ... by the angles
 };
 
-// A match seen from a pose.
+// A match with its residuals at a state.
 struct PoseSolver::Seen {
-  Eigen::Vector3d from_camera_m;  // the landmark, in the axes of the tangent frame ...
-  Eigen::Vector3d seen_m;         // ... and of the camera
+  Eigen::Vector3d from_camera_m;  // from the camera to the landmark, in the tangent frame ...
+  Eigen::Vector3d seen_m;         // ... and in the camera frame
   Eigen::Matrix<double, 2, 3> pixel_by_seen;
   Eigen::Vector2d residual_px;
   Eigen::Matrix2d pixel_information;
   double pixel_sigmas = 0;
 };
 
-// How its residuals change with the pose.
+// The Jacobians of its residuals by the pose.
 struct PoseSolver::Linearized {
   Eigen::Matrix<double, 2, kPoseStates> pixel_by_pose;
   double residual_log_scale = 0;
@@ -80,15 +80,15 @@ struct PoseSolver::Linearized {
   double scale_sigmas = 0;
 };
 
-// Whether the landmark lies before the camera.
+// Returns whether the landmark lies in front of the camera.
 bool PoseSolver::look(const View& view, const LandmarkMatch& match, Seen& at) const {
-  const PlacedLandmark& landmark = landmarks_[match.landmark];
+  const LocalLandmark& landmark = landmarks_[match.landmark];
   const Feature& feature = features_[match.feature];
   at.from_camera_m = landmark.enu_m - view.pose.enu_m;
   at.seen_m = view.rotation * at.from_camera_m;
   if (!(at.seen_m.z() > kNearestSeenM)) return false;
-  at.pixel_by_seen = view.camera.pixel_by_point(at.seen_m);
-  at.residual_px = Eigen::Vector2d(feature.x_px, feature.y_px) - view.camera.pixel_of(at.seen_m);
+  at.pixel_by_seen = view.camera.projection_jacobian(at.seen_m);
+  at.residual_px = Eigen::Vector2d(feature.x_px, feature.y_px) - view.camera.project(at.seen_m);
   const Eigen::Matrix<double, 2, 3> pixel_by_landmark = at.pixel_by_seen * view.rotation;
   const Eigen::Vector2d along_ray = pixel_by_landmark * landmark.mapping_ray;
   const double pixel_sigma =
@@ -105,7 +105,7 @@ bool PoseSolver::look(const View& view, const LandmarkMatch& match, Seen& at) co
 
 void PoseSolver::linearize(const View& view, const LandmarkMatch& match, const Seen& seen,
                            Linearized& at) const {
-  const PlacedLandmark& landmark = landmarks_[match.landmark];
+  const LocalLandmark& landmark = landmarks_[match.landmark];
   const double z = seen.seen_m.z();
   Eigen::Matrix<double, 3, kPoseStates> seen_by_pose =
       Eigen::Matrix<double, 3, kPoseStates>::Zero();
@@ -131,15 +131,15 @@ void PoseSolver::linearize(const View& view, const LandmarkMatch& match, const S
   at.scale_sigmas = std::abs(at.residual_log_scale) / std::sqrt(scale_variance);
 }
 
-// One step of Gauss and Newton. Whether it could be made.
+// One Gauss-Newton step. Returns whether it succeeded.
 template <class Weight>
 bool PoseSolver::step(const PoseBelief& before, const StateMatrix& before_information,
                       const std::vector<LandmarkMatch>& matches, const Weight& weight,
                       StateVector& state, StateMatrix& information) const {
   information = before_information;
-  StateVector gradient = before_information * (before.mean - state);
+  StateVector gradient = before_information * (before.x - state);
   const View view(state, camera_);
-  // What the scales of a frame share, as part of the state and then marginalized.
+  // The scale error shared by all features of a frame is a state that is marginalized.
   double shared_information = 1 / (settings_.shared_scale_sigma * settings_.shared_scale_sigma);
   Eigen::Matrix<double, kPoseStates, 1> shared_by_pose =
       Eigen::Matrix<double, kPoseStates, 1>::Zero();
@@ -176,7 +176,7 @@ bool PoseSolver::step(const PoseBelief& before, const StateMatrix& before_inform
 
 PoseEstimate PoseSolver::estimate(const PoseBelief& before, const StateVector& initial,
                                   const std::vector<LandmarkMatch>& matches) const {
-  const StateMatrix before_information = before.covariance.inverse();
+  const StateMatrix before_information = before.P.inverse();
   StateVector state = initial;
   StateMatrix information = before_information;
   const auto gently = [&](double sigmas) { return cauchy_weight(sigmas, settings_.cauchy); };
@@ -188,8 +188,8 @@ PoseEstimate PoseSolver::estimate(const PoseBelief& before, const StateVector& i
     if (!step(before, before_information, matches, strictly, state, information)) break;
   }
   PoseEstimate estimate;
-  estimate.belief.mean = state;
-  estimate.belief.covariance = information.inverse();
+  estimate.belief.x = state;
+  estimate.belief.P = information.inverse();
   const std::vector<double> sigmas = pixel_sigmas(state, matches);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (sigmas[i] < settings_.cutoff) estimate.agreeing.push_back(matches[i]);
@@ -200,7 +200,7 @@ PoseEstimate PoseSolver::estimate(const PoseBelief& before, const StateVector& i
 StateVector PoseSolver::hypothesis(const PoseBelief& before, const StateMatrix& before_information,
                                    const std::vector<LandmarkMatch>& matches) const {
   constexpr int kIterations = 4;
-  StateVector state = before.mean;
+  StateVector state = before.x;
   StateMatrix information;
   for (int i = 0; i < kIterations; ++i) {
     if (!step(

@@ -1,9 +1,9 @@
-// The camera's pose from landmarks seen in one frame, and from what was believed before.
+// Maximum a posteriori estimation of the camera's pose from landmarks in one frame.
 //
-// Maximum a posteriori: the belief before the frame, the bearings of the landmarks, and their
-// scales (the tracklet paper's Eq. 3 in another form: the scale of a feature of known size says its
-// depth, and depth says along) in one robust least squares problem. With many landmarks bearings
-// decide; with few, scales and the belief.
+// One robust least squares problem combines the prior belief, the bearings of the landmarks and
+// their scales (the tracklet paper's Eq. 3 in another form: the scale of a feature of known size
+// determines its depth, and depth determines arc length). With many landmarks the bearings
+// dominate; with few, the scales and the prior.
 #pragma once
 
 #include <cstddef>
@@ -16,43 +16,43 @@
 
 namespace milepost {
 
-// A feature of the frame that is taken for a landmark.
+// A match of a feature with a landmark.
 struct LandmarkMatch {
   std::size_t feature = 0;   // of the frame
   std::size_t landmark = 0;  // of the window
 };
 
 struct PoseSolverSettings {
-  double pixel_sigma_px = 1.0;       // of a feature, beside ...
+  double pixel_sigma_px = 1.0;       // of a feature's position, plus ...
   double pixel_per_scale = 0.04;     // ... this part of its scale
-  double landmark_sigma_m = 0.02;    // of a landmark's position, in each direction
-  double scale_sigma = 0.12;         // of the logarithm of a feature's scale ...
-  double shared_scale_sigma = 0.05;  // ... beside what all of a frame share: blur makes all larger
-  double cauchy = 2;                 // a match so many sigmas off weighs half at first ...
-  double cutoff = 4;                 // ... and beyond so many, at last, nothing (Tukey's biweight)
-  int iterations = 6;                // at first, and at last
+  double landmark_sigma_m = 0.02;    // of a landmark's position, per axis
+  double scale_sigma = 0.12;         // of the logarithm of a feature's scale, plus ...
+  double shared_scale_sigma = 0.05;  // ... a part shared by all of a frame: blur enlarges all
+  double cauchy = 2;                 // Cauchy weight at first: 1/2 at this many sigmas ...
+  double cutoff = 4;                 // ... then Tukey's biweight: 0 from this many sigmas on
+  int iterations = 6;                // with each of the two weights
 };
 
 struct PoseEstimate {
-  PoseBelief belief;                    // with this frame
-  std::vector<LandmarkMatch> agreeing;  // matches within the cutoff
+  PoseBelief belief;                    // posterior, with this frame
+  std::vector<LandmarkMatch> agreeing;  // inliers: matches within the cutoff
 };
 
 class PoseSolver {
  public:
-  // REQUIRES: what is referred to outlives the solver.
+  // REQUIRES: all references outlive the solver.
   PoseSolver(const Pinhole& camera, const std::vector<Feature>& features,
-             const std::vector<PlacedLandmark>& landmarks, const PoseSolverSettings& settings)
+             const std::vector<LocalLandmark>& landmarks, const PoseSolverSettings& settings)
       : camera_(camera), features_(features), landmarks_(landmarks), settings_(settings) {}
 
-  // The estimate from `matches`, found from `initial` on.
+  // The estimate from `matches`, starting the iteration at `initial`.
   PoseEstimate estimate(const PoseBelief& before, const StateVector& initial,
                         const std::vector<LandmarkMatch>& matches) const;
-  // The state that fits `before` and few matches, all of which are trusted. `before_information` is
-  // the inverse of its covariance.
+  // The state that fits the prior `before` and a few matches, all of which are trusted.
+  // `before_information` is the inverse of its covariance.
   StateVector hypothesis(const PoseBelief& before, const StateMatrix& before_information,
                          const std::vector<LandmarkMatch>& matches) const;
-  // How many sigmas each match's pixel is off, seen in a state; infinite behind the camera.
+  // The Mahalanobis distance of each match's pixel residual at a state; infinite behind the camera.
   std::vector<double> pixel_sigmas(const StateVector& state,
                                    const std::vector<LandmarkMatch>& matches) const;
 
@@ -71,7 +71,7 @@ class PoseSolver {
 
   Pinhole camera_;
   const std::vector<Feature>& features_;
-  const std::vector<PlacedLandmark>& landmarks_;
+  const std::vector<LocalLandmark>& landmarks_;
   PoseSolverSettings settings_;
 };
 

@@ -1,4 +1,4 @@
-// What a localizer is given of the query camera.
+// The input of a localizer from the query camera.
 #pragma once
 
 #include <functional>
@@ -7,10 +7,10 @@
 
 namespace milepost {
 
-// One frame of the query camera. Its features are asked for once the map, and with it the
-// parameters of the extractor, is known; the reference is used during localize() only. Methods that
-// compare whole images ask for the descriptor of schema/feature/wisurf.h and find nothing without
-// it; others never ask.
+// One frame of the query camera. Its features are requested once the map, and with it the
+// extractor's parameters, is known; the returned reference is used during localize() only. Methods
+// that compare whole images request the descriptor of schema/feature/wisurf.h and find nothing
+// without it; others never do.
 struct QueryFrame {
   double timestamp_s = 0;
   std::function<const FeatureSet&(const FeatureParameters&)> features;

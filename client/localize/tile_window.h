@@ -13,7 +13,7 @@
 namespace milepost {
 
 struct WindowReach {
-  double ahead_m = 60;   // taken beyond what is needed, so that not every frame begins anew
+  double ahead_m = 60;   // loaded beyond what is needed, to change the window rarely
   double behind_m = 60;  // kept behind what is needed
 
   AlongRange around(const AlongRange& range) const {
@@ -21,11 +21,11 @@ struct WindowReach {
   }
 };
 
-// What a window has of the range it was asked for.
+// The coverage of the requested range.
 struct Covered {
-  bool changed = false;                         // other tiles than before
-  bool complete = true;                         // every tile with an item in the range
-  std::optional<Error> failure = std::nullopt;  // why one is missing that was asked for in vain
+  bool changed = false;                         // the set of tiles has changed
+  bool complete = true;                         // every tile with an item in the range is there
+  std::optional<Error> failure = std::nullopt;  // why one is missing whose request failed
 };
 
 // Not safe to use from several threads at once.
@@ -37,8 +37,8 @@ class TileWindow {
   TileWindow(SegmentKey segment, const WindowReach& reach)
       : segment_(std::move(segment)), reach_(reach) {}
 
-  // Takes, of what is held, every tile with an item that meets `range`, and those about it; lets go
-  // of the others. What was taken once stays, also where it is held no more.
+  // Loads from the held map every tile with an item that meets `range`, and those around it;
+  // discards the others. A loaded tile stays even if it is no longer held.
   Covered cover(const HeldMap& held, const AlongRange& range) {
     const bool inside = covered_.from_m <= range.from_m && range.to_m <= covered_.to_m;
     if (inside && is_whole_) return {};

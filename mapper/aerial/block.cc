@@ -9,7 +9,7 @@
 namespace milepost {
 namespace {
 
-constexpr double kMinStraightM = 2;  // of lines that tell whether a region has straight sides
+constexpr double kMinStraightM = 2;  // of lines used to detect straight sides of regions
 
 void take_away(std::vector<cv::Mat>& maps, const cv::Mat& mask) {
   for (cv::Mat& map : maps) map.setTo(0, mask);

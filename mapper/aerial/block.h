@@ -6,14 +6,13 @@
 
 namespace milepost {
 
-// What is known of the whole image before its blocks are looked at.
+// Properties of the whole image, determined before its blocks are processed.
 struct ImageLight {
   Sun sun;
   double shadow_threshold = 0;  // grey value
 };
 
-// The lines of the block, in its frame; merging and closure are still to be done. Safe from several
-// threads.
+// The lines of the block, in its frame, before merging and closure. Safe from several threads.
 WallLines block_walls(const Picture& picture, const ImageLight& light,
                       const ExtractionSettings& settings, const StagePictures& pictures);
 

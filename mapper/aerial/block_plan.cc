@@ -6,7 +6,7 @@
 namespace milepost {
 namespace {
 
-// Liang and Barsky's clipping: where the line is within the box, as shares of its length.
+// Liang and Barsky's clipping: the part of the line within the box, as fractions of its length.
 struct Inside {
   double from = 0;
   double to = 1;

@@ -1,4 +1,4 @@
-// How a large image is cut into blocks.
+// Splits a large image into blocks.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 namespace milepost {
 
 struct Block {
-  cv::Rect core;  // in pixels of the image; the cores cover it once
-  cv::Rect seen;  // the core and a margin about it, within the image
+  cv::Rect core;  // in pixels of the image; the cores partition it
+  cv::Rect seen;  // the core and a margin around it, within the image
 };
 
 // Row by row from the top left. REQUIRES: `core_px` > 0, `margin_px` >= 0.
@@ -23,7 +23,7 @@ struct GroundBox {
   double west_m = 0, south_m = 0, east_m = 0, north_m = 0;
 };
 
-// The part of each line that lies in the box; lines of which none does are left out.
+// Clips each line to the box; lines outside are dropped.
 WallLines clipped(const WallLines& lines, const GroundBox& box);
 
 }  // namespace milepost

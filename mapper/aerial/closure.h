@@ -1,4 +1,4 @@
-// The model of a building as a closed outline (the aerial paper, section II).
+// Filter by the model of a building as a closed outline (the aerial paper, section II).
 #pragma once
 
 #include "mapper/aerial/wall_line.h"
@@ -6,12 +6,12 @@
 namespace milepost {
 
 struct ClosureSettings {
-  double reach_m = 2.5;  // ends this near are of one corner
-  int min_ends = 1;      // of a line's two ends, that must be at the end of another line
+  double reach_m = 2.5;  // ends within this distance form a corner
+  int min_ends = 1;      // of a line's two ends, how many must meet another line's end
 };
 
-// Leaves out lines whose ends are near no other line's end, again and again until all are left that
-// stand. The others stay in their order.
+// Removes lines whose ends are not near another line's end, until none is removed any more. The
+// others stay in their order.
 WallLines closed(WallLines lines, const ClosureSettings& settings);
 
 }  // namespace milepost

@@ -1,5 +1,5 @@
-// What is neither wall nor roof but full of edges: trees, hedges, grass, heaps (the aerial paper,
-// section II).
+// Masks of clutter: textured areas that are neither wall nor roof, such as trees, hedges, grass and
+// heaps (the aerial paper, section II).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,19 +10,18 @@ namespace milepost {
 
 struct ClutterSettings {
   double window_m = 0.7;        // of the corner detector
-  double min_response = 1e-4;   // Harris' R of grey values 0 to 1 a pixel: clutter is from here
+  double min_response = 1e-4;   // Harris' R of grey values 0 to 1 per pixel: clutter is from here
   double max_response = 1;      // to here
   double closing_m = 0.4;       // gaps narrower than twice this are closed
-  double min_size_m = 2.0;      // what stays of clutter after this much is taken off all around
+  double min_size_m = 2.0;      // radius of the opening that removes small clutter
   double min_greenness = 0.08;  // (2 G - R - B) / (R + G + B) of vegetation
-  double border_m = 0.4;        // of vegetation, where edges stay: walls stand there, too
+  double border_m = 0.4;        // of vegetation, in which edges are kept: walls may be there
 };
 
-// CV_8UC1, 255 where the range of the corner response says that the picture is rough. REQUIRES:
-// `grey` is CV_8UC1.
+// CV_8UC1, 255 where the corner response is in the range of clutter. REQUIRES: `grey` is CV_8UC1.
 cv::Mat rough_mask(const cv::Mat& grey, double metres_per_pixel, const ClutterSettings& settings);
 
-// CV_8UC1, 255 where the picture is green; nowhere in a grey picture.
+// CV_8UC1, 255 where the picture is green; all 0 for a grey picture.
 cv::Mat green_mask(const Picture& picture, const ClutterSettings& settings);
 
 // The mask without its border.

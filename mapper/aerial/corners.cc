@@ -26,14 +26,14 @@ struct LineEnd {
 };
 
 struct Corner {
-  double move_m = 0;  // the greater one of both ends' moves
+  double move_m = 0;  // the larger displacement of the two ends
   LineEnd a, b;
   Eigen::Vector2d at_m;
 
   auto order() const { return std::tuple(move_m, a.number(), b.number()); }
 };
 
-// Where the straight lines through both cross, if they do at an angle that is wide enough.
+// The intersection of the straight lines through both, if their angle is large enough.
 std::optional<Eigen::Vector2d> crossing(const WallLine& a, const WallLine& b,
                                         double min_angle_deg) {
   const Eigen::Vector2d along_a = direction_of(a);
@@ -43,7 +43,7 @@ std::optional<Eigen::Vector2d> crossing(const WallLine& a, const WallLine& b,
   return a.begin_m + (b.begin_m - a.begin_m).dot(right_of(along_b)) / sine * along_a;
 }
 
-// An end moves at most to the middle of its line, so that no line turns round.
+// An end moves at most to the middle of its line, so that no line is reversed.
 bool may_move(const WallLines& lines, const LineEnd& end, double move_m) {
   return move_m < lines[end.line].length_m() / 2;
 }

@@ -10,7 +10,7 @@
 namespace milepost {
 namespace {
 
-constexpr double kStepM = 0.5;  // between the points of a line that are looked at
+constexpr double kStepM = 0.5;  // spacing of the sampled points of a line
 
 double distance_m(const Eigen::Vector2d& point_m, const WallLine& line) {
   const Eigen::Vector2d along = direction_of(line);

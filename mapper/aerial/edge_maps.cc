@@ -5,7 +5,7 @@
 namespace milepost {
 namespace {
 
-constexpr double kSobelGain = 8;      // of OpenCV's Sobel operator of 3 x 3, to grey values a pixel
+constexpr double kSobelGain = 8;      // of OpenCV's 3 x 3 Sobel operator, to grey values per pixel
 constexpr double kGradientGain = 16;  // of Gradient
 
 // Where the picture has data within two metres.

@@ -19,19 +19,19 @@
 namespace milepost {
 namespace {
 
-constexpr std::size_t kSurveyedBlocks = 16;  // of the image, for its light
-constexpr double kSurveyedScale = 60;        // of the regions in it
-constexpr double kUnknownAzimuthDeg = 180;   // where no shadow tells
+constexpr std::size_t kSurveyedBlocks = 16;  // sampled blocks of the image, for shadows and sun
+constexpr double kSurveyedScale = 60;        // segmentation scale of its regions
+constexpr double kUnknownAzimuthDeg = 180;   // if the shadows give none
 constexpr double kUnknownElevationDeg = 45;
-constexpr int kMaxSeenPx = 4200;    // of a block along a side, its margins included
-constexpr int kMaxMarginPx = 1000;  // of these
+constexpr int kMaxSeenPx = 4200;    // side of a block, including its margins
+constexpr int kMaxMarginPx = 1000;  // of the margins
 
-// Joins what two blocks found of one line: the pieces meet at the border between them.
+// Joins the pieces of one line that two blocks found: they meet at the border between the blocks.
 constexpr MergingSettings kSeam{.max_angle_deg = 4, .max_apart_m = 0.3, .max_gap_m = 0.05};
 
 using OnProgress = std::function<bool(const ExtractionProgress&)>;
 
-// Blocks of fine pixels are smaller, so that each takes no more memory.
+// Blocks of finer pixels cover less ground, so that memory stays bounded.
 std::vector<Block> blocks_at(const Orthoimage& image, const ExtractionSettings& settings,
                              double metres_per_pixel) {
   const auto pixels = [&](double metres) {
@@ -42,7 +42,7 @@ std::vector<Block> blocks_at(const Orthoimage& image, const ExtractionSettings& 
   return blocks_of(image.size(), core_px, margin_px);
 }
 
-// A number of blocks at equal distances.
+// A fixed number of blocks at equal distances.
 std::vector<Block> sample_of(const std::vector<Block>& blocks) {
   const std::size_t count = std::min(blocks.size(), kSurveyedBlocks);
   std::vector<Block> sample;
@@ -65,7 +65,7 @@ struct Survey {
   bool sun_was_estimated = false;
 };
 
-// Shadows and sun, from parts of the image at the resolution of regions.
+// Shadow threshold and sun, from sampled blocks at the resolution of regions.
 Result<Survey> survey(const ImageSource& source, const ExtractionSettings& settings) {
   const Result<Orthoimage> image = Orthoimage::open(source, settings.regions.metres_per_pixel);
   if (!image) return image.error();
@@ -99,7 +99,7 @@ Result<Survey> survey(const ImageSource& source, const ExtractionSettings& setti
   return found;
 }
 
-// A core's share of the ground. At the image's border it goes on, for lines may lie on the border.
+// The ground of a core. It is extended at the image's border, where lines may lie on the border.
 GroundBox ground_box(const Block& block, const Picture& picture, const cv::Size& image) {
   const double pixel_m = picture.grid.metres_per_pixel;
   const double beyond_m = 1;
@@ -116,7 +116,7 @@ GroundBox ground_box(const Block& block, const Picture& picture, const cv::Size&
   return box;
 }
 
-// The work on all blocks, shared out to threads.
+// Processes all blocks on several threads.
 class Extraction {
  public:
   Extraction(const Orthoimage& image, const ImageLight& light, const ExtractionSettings& settings,
@@ -140,7 +140,7 @@ class Extraction {
     return blocks_.size() > 1 ? merged(std::move(all), kSeam) : all;
   }
 
-  // After run(): whether a block is not wholly transparent.
+  // After run(): whether any block is not fully transparent.
   bool shows_anything() const { return shows_anything_; }
 
  private:
@@ -178,7 +178,7 @@ class Extraction {
   const std::filesystem::path& pictures_;
   const OnProgress& on_progress_;
   std::vector<Block> blocks_;
-  std::vector<WallLines> found_;  // by block: each is written by the thread that has the block
+  std::vector<WallLines> found_;  // by block: each is written by the thread that processes it
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> shows_anything_ = false;
   std::mutex image_mutex_;  // guards image_

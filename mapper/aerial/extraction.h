@@ -1,5 +1,5 @@
-// From an orthoimage to the walls of buildings: the aerial paper's section II, stage by stage, and
-// our own stage of roofs.
+// Extracts the walls of buildings from an orthoimage: the stages of the aerial paper's section II,
+// and our own stage of roofs.
 #pragma once
 
 #include <array>
@@ -26,21 +26,21 @@
 
 namespace milepost {
 
-// What can be left out, to see what it is worth.
+// Stages that can be disabled, for ablation.
 enum class Stage {
-  shadows,      // far borders of shadows stay edges
-  vegetation,   // clutter stays
-  progressive,  // OpenCV's transform of one map instead of the progressive one of several
+  shadows,      // keeps edges at far borders of shadows
+  vegetation,   // keeps clutter
+  progressive,  // OpenCV's transform of one edge map instead of the progressive one of several
   merging,
   closure,
-  corners,  // ends of walls stay where their edges end
-  roofs     // lines stay that are no roof's edge
+  corners,  // leaves ends of walls where their edges end
+  roofs     // keeps lines that are not at a roof's edge
 };
 
 struct ExtractionSettings {
   double metres_per_pixel = 0.1;
   double block_m = 200;  // length of the sides of blocks
-  double margin_m = 40;  // that a block sees of its neighbours: most of a large building
+  double margin_m = 40;  // overlap with neighbour blocks: most of a large building
   std::set<Stage> without;
   std::optional<double> sun_azimuth_deg;    // none: estimated from the shadows
   std::optional<double> sun_elevation_deg;  // none: 45
@@ -65,18 +65,18 @@ struct ExtractedWalls {
   GroundFrame frame;
   Bounds bounds;  // of the image
   ImageBands bands;
-  bool shows_anything = false;  // not all of the image is transparent
+  bool shows_anything = false;  // not the whole image is transparent
   WallLines lines;
   Sun sun;
   bool sun_was_estimated = false;
   double shadow_threshold = 0;  // grey value
 };
 
-// Reads the image in blocks that overlap, so that memory depends on their size and on the number
-// of walls, not on the image; what two blocks found of one line is joined. The walls do not depend
-// on `jobs`, the number of threads. With `pictures`, a folder that exists, each stage of each block
-// is drawn there. `on_progress` is called from one thread at a time; the work ends with `cancelled`
-// once it returns false. Errors: those of Orthoimage; io; cancelled.
+// Reads the image in overlapping blocks, so that memory depends on their size and on the number of
+// walls, not on the image; pieces of one line from two blocks are joined. The walls do not depend
+// on `jobs`, the number of threads. If `pictures` names an existing folder, each stage of each
+// block is drawn there. `on_progress` is called from one thread at a time; the result is
+// `cancelled` once it returns false. Errors: those of Orthoimage; io; cancelled.
 Result<ExtractedWalls> extract_walls(
     const ImageSource& source, const ExtractionSettings& settings, int jobs,
     const std::filesystem::path& pictures,

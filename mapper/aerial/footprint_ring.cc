@@ -17,7 +17,7 @@ bool is_same_place(const WallEnd& a, const WallEnd& b) {
          (apart_deg == 0 || apart_deg == 360 || apart_deg == 720);
 }
 
-// The longitude, by whole turns, that is nearest to another one.
+// The longitude, modulo 360, that is nearest to another one.
 double longitude_near(double longitude_deg, double other_deg) {
   const double apart_deg = longitude_deg - other_deg;
   if (std::abs(apart_deg) <= 180) return longitude_deg;
@@ -28,14 +28,14 @@ double longitude_on_earth(double longitude_deg) {
   return std::abs(longitude_deg) <= 180 ? longitude_deg : longitude_near(longitude_deg, 0);
 }
 
-// Lets longitudes go on where they jump to the other sign.
+// Unwraps longitudes that jump at 180.
 void unroll(std::vector<WallEnd>& ring) {
   for (std::size_t i = 1; i < ring.size(); ++i) {
     ring[i].longitude_deg = longitude_near(ring[i].longitude_deg, ring[i - 1].longitude_deg);
   }
 }
 
-// In steps of a tile, so that two halves' ends are the same in spite of rounding.
+// In a tile's quantization steps, so that the ends of two halves are equal despite rounding.
 std::int64_t steps_of(double latitude_deg) {
   return static_cast<std::int64_t>(std::llround(latitude_deg * double{kStepsPerDegree}));
 }
@@ -57,7 +57,7 @@ double twice_area(const std::vector<WallEnd>& ring) {
 bool is_clockwise(const std::vector<WallEnd>& ring) {
   const double eastward_deg = ring.back().longitude_deg - ring.front().longitude_deg;
   if (std::abs(eastward_deg) < 180) return twice_area(ring) < 0;
-  // Around a pole: eastward is counterclockwise as one looks down on the northern one.
+  // Around a pole: eastward is counterclockwise, seen from above the northern one.
   return (eastward_deg < 0) == (ring.front().latitude_deg > 0);
 }
 
@@ -74,7 +74,7 @@ bool is_too_long(const WallEnd& begin, const WallEnd& end) {
 
 std::optional<std::string> RingWalls::add(std::vector<WallEnd> ring, RingKind kind) {
   if (!is_same_place(ring.front(), ring.back())) {
-    return "the ring's last position is not its first";
+    return "the ring's last position differs from its first";
   }
   unroll(ring);
   for (std::size_t i = 0; i + 1 < ring.size(); ++i) {

@@ -1,4 +1,4 @@
-// From rings of positions to walls.
+// Converts rings of positions to walls.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ enum class RingKind { outer, inner };
 // Collects the walls of rings; the building is on the right of each.
 class RingWalls {
  public:
-  // Positions with latitudes in [-90, 90] and longitudes in [-360, 360], in either direction; the
-  // last is the first again, and the shorter way leads from each to the next. A ring may go around
-  // a pole. What is wrong with it, if something is: then none of its walls is added.
+  // Adds a ring of positions with latitudes in [-90, 90] and longitudes in [-360, 360], in either
+  // direction; the last repeats the first, and edges are the shorter way between positions. A ring
+  // may go around a pole. Returns an error message for an invalid ring, of which no wall is added.
   // REQUIRES: the ring is not empty.
   std::optional<std::string> add(std::vector<WallEnd> ring, RingKind kind);
 
-  // All walls, without those along longitude 180 that have a building on either side.
+  // All walls, except those along longitude 180 with a building on either side.
   std::vector<Wall> finish() &&;
 
  private:

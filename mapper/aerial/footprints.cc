@@ -15,18 +15,18 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMinRingPoints = 4;  // the last is the first again
-constexpr std::size_t kMaxNameBytes = 60;  // of what a message quotes
+constexpr std::size_t kMinRingPoints = 4;  // the last repeats the first
+constexpr std::size_t kMaxNameBytes = 60;  // of a quoted value in a message
 
-// The outlines of a large city; it takes about 5 GB of memory.
+// Enough for the outlines of a large city; reading them takes about 5 GB of memory.
 constexpr JsonLimits kLimits{.bytes = 512'000'000, .values = 50'000'000, .depth = 64};
 
 Error too_large(const std::string& name) {
   return {ErrorCode::invalid_input, name, "it is larger than 512 MB",
-          "cut out the area of the map (ogr2ogr -clipsrc W S E N)"};
+          "extract the area of the map (ogr2ogr -clipsrc W S E N)"};
 }
 
-// A value as a message may quote it: on one line, not long.
+// A value quoted for a message: on one line, truncated.
 std::string in_message(const Json& value) {
   std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (text.size() > kMaxNameBytes) text = text.substr(0, kMaxNameBytes) + "...";
@@ -42,7 +42,7 @@ std::string numbered(const std::string& place, std::size_t number) {
   return place + "[" + std::to_string(number) + "]";
 }
 
-// Reads one document, keeping its name for messages.
+// Reads one document; stores its name for messages.
 class FootprintReader {
  public:
   explicit FootprintReader(const std::string& name) : name_(name) {}
@@ -68,16 +68,16 @@ class FootprintReader {
   Error not_json(std::string_view text, const Error& reason) const {
     if (text.size() > kLimits.bytes) return too_large(name_);
     if (is_line_delimited(text)) {
-      return {ErrorCode::invalid_input, name_, "this is GeoJSON of one feature a line",
+      return {ErrorCode::invalid_input, name_, "this is GeoJSON with one feature per line",
               "make one collection of it (ogr2ogr -f GeoJSON NEW.geojson GeoJSONSeq:OLD)"};
     }
     const std::string place = reason.where.empty() ? "" : ", " + reason.where;
     return {ErrorCode::invalid_input, name_ + place, reason.what,
-            reason.where.empty() ? "cut out the area of the map (ogr2ogr -clipsrc W S E N)"
-                                 : "write it as GeoJSON anew (ogr2ogr -f GeoJSON NEW.geojson OLD)"};
+            reason.where.empty() ? "extract the area of the map (ogr2ogr -clipsrc W S E N)"
+                                 : "rewrite it as GeoJSON (ogr2ogr -f GeoJSON NEW.geojson OLD)"};
   }
 
-  // Files from before RFC 7946 may name another reference.
+  // Files from before RFC 7946 may name another coordinate reference system.
   Status check_reference(const Json& root) const {
     const Json* const reference = member(root, "crs");
     if (reference == nullptr || reference->is_null()) return ok_status();
@@ -149,7 +149,7 @@ class FootprintReader {
       return {ErrorCode::invalid_input, name_ + ", " + place,
               what + " is written \"" + *right + "\"", "correct the capitals"};
     }
-    return broken(place, what + " is not one of GeoJSON's");
+    return broken(place, what + " is not a GeoJSON type");
   }
 
   Status add_polygon(const Json& rings, const std::string& place) {
@@ -164,7 +164,7 @@ class FootprintReader {
 
   Status add_ring(const Json& positions, RingKind kind, const std::string& place) {
     if (!positions.is_array() || positions.size() < kMinRingPoints) {
-      return broken(place, "a ring has at least 4 positions");
+      return broken(place, "a ring needs at least 4 positions");
     }
     std::vector<WallEnd> ring;
     ring.reserve(positions.size());

@@ -1,5 +1,4 @@
-// GDAL as the orthoimage needs it: datasets that close themselves, messages that stay off standard
-// error.
+// RAII for GDAL: datasets that close themselves, and suppression of its messages.
 #pragma once
 
 #include <gdal_priv.h>
@@ -12,7 +11,7 @@ namespace milepost {
 
 using Dataset = std::unique_ptr<GDALDataset, decltype(&GDALClose)>;
 
-// While it lives GDAL says nothing on standard error; its last message is kept.
+// While it exists GDAL prints nothing to standard error; its last message is kept.
 class QuietGdal {
  public:
   QuietGdal() {
@@ -23,7 +22,7 @@ class QuietGdal {
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 
-  // " (MESSAGE)", or nothing where there was none.
+  // " (MESSAGE)", or empty if there was none.
   static std::string in_brackets() {
     std::string text = CPLGetLastErrorMsg();
     std::replace(text.begin(), text.end(), '\n', ' ');

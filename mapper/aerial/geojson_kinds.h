@@ -1,4 +1,4 @@
-// What a JSON document may be instead of the GeoJSON that was asked for.
+// Recognizes other JSON documents than the expected GeoJSON.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,21 @@
 namespace milepost {
 
 bool is_geojson_type(std::string_view type);
-// 'Polygon' of 'polygon'; none where no type is written so in any case.
+// 'Polygon' for 'polygon'; none if no type matches in any case.
 std::optional<std::string> geojson_type_in_other_case(std::string_view type);
 
 struct OtherJson {
   std::string name;       // "TopoJSON"
-  std::string converter;  // a command that makes GeoJSON of it
+  std::string converter;  // a command that converts it to GeoJSON
 };
 
-// The other format of maps that the document is in, where it is one.
+// The other map format of the document, if it is one.
 std::optional<OtherJson> kind_of_other_json(const nlohmann::json& root);
 
-// Whether the text has an object a line (RFC 8142 and its kin without separators).
+// Whether the text has one object per line (RFC 8142, or similar without separators).
 bool is_line_delimited(std::string_view text);
 
-// Counts what was met in a document.
+// Counts the geometries of a document.
 class GeometryCensus {
  public:
   void count(const std::string& type) { ++geometries_[type]; }

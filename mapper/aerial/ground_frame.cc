@@ -43,9 +43,9 @@ Bounds GroundFrame::bounds_of(const Eigen::Vector2d& south_west_m,
                               const Eigen::Vector2d& north_east_m) const {
   const double west_m = south_west_m.x();
   const double east_m = north_east_m.x();
-  // On the origin's meridian the latitudes of a border are the most extreme ones.
+  // On the origin's meridian the latitudes of a border are extreme.
   const double middle_m = std::clamp(0.0, west_m, east_m);
-  Bounds box{360, 90, -360, -90};  // longitudes from the origin's
+  Bounds box{360, 90, -360, -90};  // longitudes relative to the origin's
   for (const double x_m : {west_m, middle_m, east_m}) {
     for (const double y_m : {south_west_m.y(), north_east_m.y()}) {
       const GeoPoint point = geo_from_ground({x_m, y_m});

@@ -14,18 +14,18 @@ namespace {
 
 constexpr int kOpaque = 255;
 constexpr double kMaxShareBetween = 0.5;  // of an alpha band's values above 0, those below 255
-constexpr int kSamplesASide = 8;          // squares at equal distances, of
-constexpr int kSampleSide = 64;           // so many pixels a side
+constexpr int kSamplesASide = 8;          // squares at equal distances
+constexpr int kSampleSide = 64;           // pixels per side of a square
 
 using Histogram = std::array<std::int64_t, 256>;
 
-// Where the squares of a sample begin along a side of the image.
+// The begin of a sampled square along a side of the image.
 int sample_at(int number, int side) {
   const int room = std::max(0, side - kSampleSide);
   return static_cast<int>(std::int64_t{room} * number / (kSamplesASide - 1));
 }
 
-// Of squares all over the image: each costs a few of its blocks, however large the image is.
+// Over squares across the whole image: the cost does not grow with the image.
 Result<Histogram> sampled_histogram(GDALRasterBand& band, const fs::path& file) {
   Histogram histogram{};
   const int width = std::min(kSampleSide, band.GetXSize());
@@ -37,7 +37,7 @@ Result<Histogram> sampled_histogram(GDALRasterBand& band, const fs::path& file) 
                         sample_at(row, band.GetYSize()), width, height, values.data(), width,
                         height, GDT_Byte, 0, 0, nullptr) != CE_None) {
         return Error{ErrorCode::corrupt, file.string() + ", band " + std::to_string(band.GetBand()),
-                     "it cannot be read" + QuietGdal::in_brackets(), "fetch the image anew"};
+                     "it cannot be read" + QuietGdal::in_brackets(), "fetch the image again"};
       }
       for (const std::uint8_t value : values) ++histogram[value];
     }
@@ -55,15 +55,15 @@ bool is_mask(const Histogram& histogram) {
 }  // namespace
 
 Result<ImageBands> bands_named(const std::vector<int>& numbers) {
-  const std::string mend =
+  const std::string hint =
       "give one of grey or three of red, green and blue, and after them one "
       "of transparency if it has one: 1,2,3";
   const bool is_list = !numbers.empty() && numbers.size() <= 4;
   if (!is_list || std::ranges::min(numbers) < 1) {
-    return Error{ErrorCode::invalid_input, "--bands", "it takes one to four numbers from 1", mend};
+    return Error{ErrorCode::invalid_input, "--bands", "it takes one to four numbers from 1", hint};
   }
   if (std::set<int>(numbers.begin(), numbers.end()).size() < numbers.size()) {
-    return Error{ErrorCode::invalid_input, "--bands", "a band is named twice", mend};
+    return Error{ErrorCode::invalid_input, "--bands", "a band is named twice", hint};
   }
   ImageBands bands{numbers, 0, 0};
   if (numbers.size() % 2 == 0) {
@@ -110,7 +110,7 @@ Status check_bands(GDALDataset& image, const ImageBands& bands, const fs::path& 
     return Error{ErrorCode::invalid_input, file.string(),
                  "it has no band " + std::to_string(last) + ", but " +
                      std::to_string(image.GetRasterCount()),
-                 "choose among these by --bands"};
+                 "choose among these with --bands"};
   }
   for (const int band : bands.shown) {
     const GDALDataType type = image.GetRasterBand(band)->GetRasterDataType();

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLeastPixelM = 1e-4;
-constexpr const char* kGoOnBeyond180 = " +over";  // a word of PROJ
-constexpr double kLeastShape = 0.05;  // of a pixel: its area over that of a rectangle of its sides
+constexpr const char* kGoOnBeyond180 = " +over";  // a PROJ parameter
+constexpr double kLeastShape = 0.05;  // of a pixel: its area relative to a rectangle with its sides
 
 Result<OGRSpatialReference> reference_of(GDALDataset& image, const std::string& given,
                                          const fs::path& file) {
@@ -28,11 +28,12 @@ Result<OGRSpatialReference> reference_of(GDALDataset& image, const std::string& 
   if (const OGRSpatialReference* const own = image.GetSpatialRef(); own != nullptr) {
     reference = *own;
   } else if (given.empty()) {
-    return Error{ErrorCode::invalid_input, file.string(), "the image has no georeference",
-                 "say what its coordinates are (--image-crs EPSG:CODE), or give a GeoTIFF"};
+    return Error{
+        ErrorCode::invalid_input, file.string(), "the image has no georeference",
+        "state its coordinate reference system (--image-crs EPSG:CODE), or give a GeoTIFF"};
   } else if (reference.SetFromUserInput(given.c_str()) != OGRERR_NONE) {
-    return Error{ErrorCode::invalid_input, "--image-crs " + given, "no such reference is known",
-                 "give one as EPSG:3857"};
+    return Error{ErrorCode::invalid_input, "--image-crs " + given,
+                 "unknown coordinate reference system", "give one as EPSG:3857"};
   }
   reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return reference;
@@ -46,7 +47,7 @@ std::string wkt_of(const OGRSpatialReference& reference) {
   return wkt;
 }
 
-// Metres as people write them: 1.2 m, 10 m, 78271 m.
+// Metres, to two significant digits below 100 m, else whole: 1.2 m, 10 m, 78271 m.
 std::string in_metres(double metres) {
   std::ostringstream text;
   if (metres < 100) {
@@ -57,7 +58,7 @@ std::string in_metres(double metres) {
   return text.str();
 }
 
-// A place in the image, in pixels from its top left corner.
+// A point in the image, in pixels from its top left corner.
 struct PixelPlace {
   std::string name;  // "in the middle"
   double column = 0;
@@ -69,7 +70,7 @@ struct PixelPlace {
 struct PixelSides {
   double column_m = 0;  // of one pixel, on the ground
   double row_m = 0;
-  double shape = 0;  // of its corner: 1 a right angle, 0 none
+  double shape = 0;  // of its corner: 1 for a right angle, 0 if degenerate
 
   double coarse_m() const { return std::max(column_m, row_m); }
   double fine_m() const { return std::min(column_m, row_m); }
@@ -84,7 +85,7 @@ OGRSpatialReference wgs84() {
   return reference;
 }
 
-// The same reference whose longitudes, and what is computed of them, go on beyond 180 degrees.
+// The same reference system without wrapping of longitudes at 180 degrees.
 std::string going_on_beyond_180(const OGRSpatialReference& reference) {
   char* text = nullptr;
   reference.exportToProj4(&text);
@@ -104,8 +105,8 @@ class GroundSurvey {
                  "give a GeoTIFF, or put a world file beside the image"};
   }
 
-  // Whether each corner's coordinates are again those of its place on the Earth; those of a world
-  // map are not beyond its edge. Degrees may always go on beyond 180.
+  // Whether each corner's coordinates survive the round trip over its position on the Earth; those
+  // beyond the edge of a world map do not. Degrees may always exceed 180.
   bool is_within_reference() const {
     if (is_geographic_) return true;
     for (const PixelPlace& corner : corners()) {
@@ -114,7 +115,7 @@ class GroundSurvey {
       double again_y = y;
       const bool is_on_earth = to_wgs84_ != nullptr && from_wgs84_ != nullptr &&
                                to_wgs84_->Transform(1, &again_x, &again_y) != 0;
-      if (!is_on_earth) return true;  // check() says so
+      if (!is_on_earth) return true;  // check() reports it
       if (from_wgs84_->Transform(1, &again_x, &again_y) == 0) return false;
       if (std::hypot(again_x - x, again_y - y) > kMaxReachM) return false;
     }
@@ -178,7 +179,7 @@ class GroundSurvey {
             transform_[3] + column * transform_[4] + row * transform_[5]};
   }
 
-  // Where a place is on the Earth, if it is there.
+  // The position of a pixel on the Earth, if it has one.
   std::optional<GeoPoint> geo_from_pixel(double column, double row) const {
     auto [x, y] = coordinates_of(column, row);
     if (to_wgs84_ == nullptr || !to_wgs84_->Transform(1, &x, &y)) return std::nullopt;
@@ -203,14 +204,14 @@ class GroundSurvey {
 
   Error leads_nowhere(const PixelPlace& place) const {
     return {ErrorCode::invalid_input, file_.string(),
-            "its georeference does not lead to a place on the Earth " + place.name,
+            "its georeference gives no position on the Earth " + place.name,
             "correct it (gdal_edit.py -a_srs EPSG:CODE)"};
   }
 
   Error too_coarse(const PixelPlace& place, const PixelSides& sides) const {
     return {ErrorCode::invalid_input, file_.string(),
             "a pixel " + place.name + " is " + in_metres(sides.coarse_m()) +
-                " long on the ground, and walls show in pixels of at most " +
+                " long on the ground, and walls are visible in pixels of at most " +
                 in_metres(kCoarsestPixelM),
             "give a finer image"};
   }
@@ -219,7 +220,7 @@ class GroundSurvey {
     return {ErrorCode::invalid_input, file_.string(),
             "it reaches " + in_metres(reach_m) + " from its middle to a corner, more than " +
                 in_metres(kMaxReachM),
-            "cut out a part of it (gdal_translate -projwin)"};
+            "extract a part of it (gdal_translate -projwin)"};
   }
 
   const fs::path& file_;

@@ -9,8 +9,8 @@ namespace {
 
 std::int64_t key_of(std::int64_t column, std::int64_t row) { return column * 4294967296 + row; }
 
-// Calls `visit` (column, row) for cells that cover the line, some more than once: the line has a
-// point at least each half cell.
+// Calls `visit` (column, row) for cells that cover the line, some more than once: the line is
+// sampled at least every half cell.
 template <class Visit>
 void for_each_cell(const WallLine& line, double cell_m, Visit visit) {
   const int steps = static_cast<int>(std::ceil(2 * line.length_m() / cell_m)) + 1;

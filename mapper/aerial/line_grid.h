@@ -1,4 +1,4 @@
-// Which lines pass near a place.
+// Spatial index of lines.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace milepost {
 
-// Lines, by numbers of the caller's, in the square cells that they pass through.
+// Lines, by the caller's numbers, in the square cells that they pass through.
 class LineGrid {
  public:
   explicit LineGrid(double cell_m) : cell_m_(cell_m) {}
 
   void add(std::size_t number, const WallLine& line);
 
-  // The numbers, ascending and each once, of all lines within one cell's width of `line`, and of
-  // some that are farther.
+  // The numbers, ascending and without duplicates, of all lines within one cell's width of `line`,
+  // and of some farther lines.
   std::vector<std::size_t> near(const WallLine& line) const;
 
  private:

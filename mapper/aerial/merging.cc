@@ -15,7 +15,7 @@ auto coordinates_of(const WallLine& line) {
   return std::tuple(line.begin_m.x(), line.begin_m.y(), line.end_m.x(), line.end_m.y());
 }
 
-// The longest first; equal lengths in an order of their own, so that the input's does not matter.
+// The longest first; equal lengths by coordinates, so that the input's order does not matter.
 bool comes_before(const WallLine& a, const WallLine& b) {
   return std::tuple(-a.length_m(), coordinates_of(a)) <
          std::tuple(-b.length_m(), coordinates_of(b));
@@ -37,7 +37,7 @@ bool are_one(const WallLine& line, const WallLine& other, const MergingSettings&
   return first_m <= line.length_m() + settings.max_gap_m && last_m >= -settings.max_gap_m;
 }
 
-// The line of least squares through both, weighted by length, from the first end to the last.
+// The least-squares line through both, weighted by length, from the first end to the last.
 WallLine united(const WallLine& line, const WallLine& other) {
   const double length_m = line.length_m() + other.length_m();
   const Eigen::Vector2d middle = (line.length_m() * (line.begin_m + line.end_m) +

@@ -1,4 +1,4 @@
-// Segments that are one line in truth (the aerial paper, section II).
+// Merging of segments that belong to one line (the aerial paper, section II).
 #pragma once
 
 #include "mapper/aerial/wall_line.h"
@@ -11,8 +11,8 @@ struct MergingSettings {
   double max_gap_m = 0.8;    // between their ends, along the line
 };
 
-// Segments that are almost parallel and near each other become one, from end to end; the longest
-// gathers first. The lines come the longest first, in the sense of their longest part.
+// Merges segments that are almost parallel and near each other, greedily from the longest. The
+// result is sorted by length, the longest first; each line has the direction of its longest part.
 // REQUIRES: no line has length 0.
 WallLines merged(WallLines lines, const MergingSettings& settings);
 

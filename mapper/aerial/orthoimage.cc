@@ -15,17 +15,17 @@ namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr GIntBig kCacheBytes = 64 << 20;  // what GDAL may keep of all that it has read
-// Of the image's pixels to one of the picture's, along a side: GDAL reads a part of the image at
-// once that grows with its square, to 420 MB.
+constexpr GIntBig kCacheBytes = 64 << 20;  // of GDAL's block cache
+// Image pixels per picture pixel, along a side: the part of the image that GDAL reads at once grows
+// with its square, to 420 MB.
 constexpr double kMaxReduction = 40;
-constexpr std::int64_t kMaxBlockBytes = 256 << 20;  // that the file must be read in at once
-constexpr double kOnePixelM = 1;                    // what rounding may add to a picture's sides
+constexpr std::int64_t kMaxBlockBytes = 256 << 20;  // of a block of the file
+constexpr double kOnePixelM = 1;                    // tolerance of a picture's sides, for rounding
 
 // A virtual dataset of `source` made by one of GDAL's utilities (gdal_translate, gdalwarp).
-Dataset translated(GDALDataset& source, const std::vector<std::string>& words) {
+Dataset translated(GDALDataset& source, const std::vector<std::string>& arguments) {
   CPLStringList list;
-  for (const std::string& word : words) list.AddString(word.c_str());
+  for (const std::string& argument : arguments) list.AddString(argument.c_str());
   GDALTranslateOptions* const options = GDALTranslateOptionsNew(list.List(), nullptr);
   Dataset made(static_cast<GDALDataset*>(
                    GDALTranslate("", GDALDataset::ToHandle(&source), options, nullptr)),
@@ -34,9 +34,9 @@ Dataset translated(GDALDataset& source, const std::vector<std::string>& words) {
   return made;
 }
 
-Dataset warped(GDALDataset& source, const std::vector<std::string>& words) {
+Dataset warped(GDALDataset& source, const std::vector<std::string>& arguments) {
   CPLStringList list;
-  for (const std::string& word : words) list.AddString(word.c_str());
+  for (const std::string& argument : arguments) list.AddString(argument.c_str());
   GDALWarpAppOptions* const options = GDALWarpAppOptionsNew(list.List(), nullptr);
   GDALDatasetH sources[] = {GDALDataset::ToHandle(&source)};
   Dataset made(static_cast<GDALDataset*>(GDALWarp("", nullptr, 1, sources, options, nullptr)),
@@ -45,38 +45,39 @@ Dataset warped(GDALDataset& source, const std::vector<std::string>& words) {
   return made;
 }
 
-// Whether the image's own transparency is another band's than the one to be taken.
+// Whether the image's own alpha band is another one than the one to be used.
 bool has_other_alpha(GDALDataset& image, const ImageBands& bands) {
   if ((image.GetRasterBand(bands.shown.front())->GetMaskFlags() & GMF_ALPHA) == 0) return false;
   return bands.alpha == 0 ||
          image.GetRasterBand(bands.alpha)->GetColorInterpretation() != GCI_AlphaBand;
 }
 
-// The colours, or the grey, and the transparency of the image, in this order.
+// The colour or grey bands and the transparency of the image, in this order.
 Dataset shown_bands(GDALDataset& image, const ImageBands& bands) {
-  std::vector<std::string> words = {"-of", "VRT"};
-  for (const int band : bands.shown) words.insert(words.end(), {"-b", std::to_string(band)});
+  std::vector<std::string> arguments = {"-of", "VRT"};
+  for (const int band : bands.shown)
+    arguments.insert(arguments.end(), {"-b", std::to_string(band)});
   const bool is_grey = bands.shown.size() == 1;
   if (is_grey && image.GetRasterBand(bands.shown.front())->GetColorTable() != nullptr) {
-    words.insert(words.end(), {"-expand", "rgb"});
-    return translated(image, words);
+    arguments.insert(arguments.end(), {"-expand", "rgb"});
+    return translated(image, arguments);
   }
   std::string meaning = is_grey ? "gray" : "red,green,blue";
   if (bands.alpha != 0) {
-    words.insert(words.end(), {"-b", std::to_string(bands.alpha)});
+    arguments.insert(arguments.end(), {"-b", std::to_string(bands.alpha)});
     meaning += ",alpha";
   }
-  words.insert(words.end(), {"-colorinterp", meaning});
-  if (has_other_alpha(image, bands)) words.insert(words.end(), {"-mask", "none"});
-  return translated(image, words);
+  arguments.insert(arguments.end(), {"-colorinterp", meaning});
+  if (has_other_alpha(image, bands)) arguments.insert(arguments.end(), {"-mask", "none"});
+  return translated(image, arguments);
 }
 
-// Whether reading any part of the image costs a bounded amount of memory.
+// Checks that any part of the image can be read in bounded memory.
 Status check_cost(GDALDataset& image, const ImageBands& bands, const ImageGround& ground,
                   double metres_per_pixel, const fs::path& file) {
   if (metres_per_pixel > kMaxReduction * ground.finest_pixel_m) {
     return Error{ErrorCode::invalid_input, file.string(),
-                 "its pixels are more than 40 times as fine as those that are worked with",
+                 "its pixels are more than 40 times finer than the working resolution",
                  "make them coarser (gdalwarp -r average -tr 0.02 0.02)"};
   }
   int width = 0;
@@ -85,13 +86,13 @@ Status check_cost(GDALDataset& image, const ImageBands& bands, const ImageGround
   if (std::int64_t{width} * height * image.GetRasterCount() > kMaxBlockBytes) {
     return Error{ErrorCode::invalid_input, file.string(),
                  "it can only be read in blocks of " + std::to_string(width) + " x " +
-                     std::to_string(height) + " pixels, too many for the memory",
+                     std::to_string(height) + " pixels, too large to read in bounded memory",
                  "write it in tiles (gdal_translate -co TILED=YES)"};
   }
   return ok_status();
 }
 
-// Whether the picture has the size that the image's corners ask for.
+// Whether the picture has the size that the image's corners require.
 bool is_of_size(GDALDataset& picture, double metres_per_pixel) {
   const double limit_m = 2 * kMaxReachM + kOnePixelM;
   return picture.GetRasterXSize() * metres_per_pixel <= limit_m &&
@@ -105,7 +106,7 @@ struct Orthoimage::Impl {
   ImageBands bands;
   GroundFrame frame;
   double metres_per_pixel = 0;
-  Dataset source{nullptr, &GDALClose};  // closed last: the others read it
+  Dataset source{nullptr, &GDALClose};  // closed last: the others refer to it
   Dataset shown{nullptr, &GDALClose};
   Dataset picture{nullptr, &GDALClose};  // the last band is its transparency
   double west_m = 0;
@@ -153,7 +154,7 @@ Result<Orthoimage> Orthoimage::open(const ImageSource& from, double metres_per_p
   }
   if (impl->picture == nullptr || !is_of_size(*impl->picture, metres_per_pixel)) {
     return Error{ErrorCode::invalid_input, file.string(),
-                 "it cannot be brought to the ground" + QuietGdal::in_brackets(),
+                 "it cannot be resampled to the ground" + QuietGdal::in_brackets(),
                  "check its georeference"};
   }
   double transform[6];
@@ -188,7 +189,8 @@ Result<Picture> Orthoimage::read(const cv::Rect& block) const {
             GF_Read, inside.x, inside.y, inside.width, inside.height, plane.data, plane.cols,
             plane.rows, GDT_Byte, 1, static_cast<GSpacing>(plane.step[0]), nullptr) != CE_None) {
       return Error{ErrorCode::corrupt, impl_->file.string(),
-                   "it cannot be read through" + QuietGdal::in_brackets(), "fetch the image anew"};
+                   "it cannot be read completely" + QuietGdal::in_brackets(),
+                   "fetch the image again"};
     }
     planes.push_back(std::move(plane));
   }

@@ -16,8 +16,8 @@
 
 namespace milepost {
 
-// Where pixels lie on the ground: rows run east, columns run south. Pixels count from the centre of
-// the top left one.
+// The ground positions of pixels: rows run east, columns run south. Pixel coordinates are relative
+// to the centre of the top left pixel.
 struct PixelGrid {
   double west_m = 0;   // of the top left pixel's outer corner
   double north_m = 0;  // of the same
@@ -35,26 +35,26 @@ struct PixelGrid {
 
 // A block of the picture.
 struct Picture {
-  cv::Mat bgr;      // CV_8UC3; a grey image has three equal channels
+  cv::Mat bgr;      // CV_8UC3; of a grey image, three equal channels
   cv::Mat covered;  // CV_8UC1, 255 where the image has data, else 0
   PixelGrid grid;
 };
 
 struct ImageSource {
   std::filesystem::path file;
-  // What the image's coordinates are, where it does not say, as one with a world file: EPSG:3857,
-  // or in any other way that GDAL knows.
+  // The coordinate reference system of an image that does not state it, such as one with a world
+  // file: EPSG:3857, or in any other form that GDAL accepts.
   std::string reference;
-  std::vector<int> bands;  // as bands_named has them; empty: what the image says of them
+  std::vector<int> bands;  // as for bands_named; empty: by the image's tags
 };
 
-// Whatever GDAL reads: any projection, grey, colours or a palette, with or without transparency.
-// Not safe to use from several threads at once.
+// Any image that GDAL reads: any projection, grey, colours or a palette, with or without
+// transparency. Not safe to use from several threads at once.
 class Orthoimage {
  public:
-  // No pixels are read but a sample of a band of transparency. Errors: not_found; those of
-  // bands_named, bands_by_tags, check_bands and ground_of; invalid_input (no image, or one of which
-  // no small part can be read for itself).
+  // No pixels are read except a sample of an alpha band. Errors: not_found; those of bands_named,
+  // bands_by_tags, check_bands and ground_of; invalid_input (not an image, or one that cannot be
+  // read in small parts).
   static Result<Orthoimage> open(const ImageSource& from, double metres_per_pixel);
 
   Orthoimage(Orthoimage&&) noexcept;
@@ -64,10 +64,10 @@ class Orthoimage {
   cv::Size size() const;  // in pixels of metres_per_pixel
   const GroundFrame& frame() const;
   const ImageBands& bands() const;
-  Bounds bounds() const;  // a box around the whole image; it may cross longitude 180
+  Bounds bounds() const;  // the bounding box of the image; it may cross longitude 180
 
-  // The part of `block` that lies in the image. Errors: corrupt (the file is damaged there).
-  // REQUIRES: `block` meets the image.
+  // The part of `block` within the image. Errors: corrupt (the file is damaged there).
+  // REQUIRES: `block` intersects the image.
   Result<Picture> read(const cv::Rect& block) const;
 
  private:

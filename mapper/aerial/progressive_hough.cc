@@ -10,19 +10,19 @@
 namespace milepost {
 namespace {
 
-constexpr int kAngles = 180;  // of a line's normal, a degree apart
+constexpr int kAngles = 180;  // of a line's normal, one degree apart
 constexpr double kRadPerAngle = std::numbers::pi / kAngles;
-constexpr std::uint8_t kRests = 1 << 7;  // an edge that has failed in this pass
+constexpr std::uint8_t kRests = 1 << 7;  // an edge that is inactive until the pass ends
 
 int wrapped_angle(int angle) { return (angle + kAngles) % kAngles; }
 
-// Between two directions without sense, in degrees.
+// The angle between two undirected lines, in degrees.
 int turn_between(int a, int b) {
   const int turn = std::abs(a - b);
   return std::min(turn, kAngles - turn);
 }
 
-// The direction of the gradient at each pixel, 0 to 179 degrees: the normal of a line through it.
+// The orientation of the gradient at each pixel, 0 to 179 degrees: the normal of a line through it.
 cv::Mat normals_of(const Gradient& gradient) {
   cv::Mat normals(gradient.x.size(), CV_8UC1);
   for (int y = 0; y < normals.rows; ++y) {
@@ -37,8 +37,8 @@ cv::Mat normals_of(const Gradient& gradient) {
   return normals;
 }
 
-// Votes of edges for lines, each given by the angle of its normal and its distance from the top
-// left pixel.
+// The votes of edges for lines, in Hough space: the angle of the normal, and the distance from the
+// top left pixel.
 class Accumulator {
  public:
   Accumulator(const cv::Size& size, int spread) : spread_(spread) {
@@ -52,7 +52,7 @@ class Accumulator {
 
   void clear() { votes_.setTo(0); }
 
-  // The line through the pixel with the most votes, after its own; its votes come to `most`.
+  // Adds the pixel's votes; returns the angle of the line through it with the most votes, `most`.
   int vote(const cv::Point& pixel, int normal, int& most) {
     int best = normal;
     most = 0;
@@ -83,14 +83,14 @@ class Accumulator {
   cv::Mat votes_;
 };
 
-// The edges that make up a line, and how much of it they cover.
+// The edges on a line, and how much of it they cover.
 struct Trace {
   std::vector<cv::Point> edges;
   int steps_with_edge = 0;
   double length_px = 0;
 };
 
-// The line of least squares through the edges, cut where they end.
+// The least-squares line through the edges, from the first to the last.
 PixelLine fitted(const std::vector<cv::Point>& edges) {
   cv::Vec4f fit;  // direction, then a point
   cv::fitLine(edges, fit, cv::DIST_L2, 0, 0.01, 0.01);
@@ -140,7 +140,7 @@ class Transform {
   }
 
  private:
-  // Extracts what one map has of lines of a least length.
+  // Extracts the lines of one map that have at least this length.
   void pass(std::uint8_t map, double least_px) {
     votes_.clear();
     voted_.setTo(0);
@@ -168,7 +168,7 @@ class Transform {
     return (state & map) != 0 && (state & kRests) == 0;
   }
 
-  // How much longer than elsewhere a line must be among so many edges.
+  // The factor by which a line must be longer where edges are dense.
   double crowding(const cv::Point& pixel) const {
     return std::max(1.0, density_.at<float>(pixel) / settings_.dense_share);
   }
@@ -184,7 +184,7 @@ class Transform {
     return edges;
   }
 
-  // Follows the line from the pixel both ways to where edges are missing for too long.
+  // Follows the line from the pixel in both directions until a gap is too long.
   Trace trace(std::uint8_t map, const cv::Point& start, int angle) const {
     Trace trace;
     const Eigen::Vector2d normal(std::cos(angle * kRadPerAngle), std::sin(angle * kRadPerAngle));
@@ -203,7 +203,7 @@ class Transform {
     return trace;
   }
 
-  // Adds the edges of the line across its corridor at `middle`. Returns whether there is one.
+  // Adds the edges in the corridor of the line at `middle`. Returns whether there is one.
   bool take_step(std::uint8_t map, const Eigen::Vector2d& middle, const Eigen::Vector2d& normal,
                  int angle, std::vector<cv::Point>& edges) const {
     const int half = static_cast<int>(std::lround(settings_.corridor_m / metres_per_pixel_));
@@ -229,7 +229,7 @@ class Transform {
     return turn_between(normals_.at<std::uint8_t>(pixel), angle) <= settings_.max_turn_deg;
   }
 
-  // Takes the edges beside the line out of all maps.
+  // Removes the edges near the line from all maps.
   void use_up(const PixelLine& line) {
     const Eigen::Vector2d way = line.end_px - line.begin_px;
     const Eigen::Vector2d direction = way.normalized();
@@ -251,7 +251,7 @@ class Transform {
     }
   }
 
-  // Until the pass ends the edge counts no more.
+  // Deactivates the edge until the pass ends.
   void rest(const cv::Point& edge) {
     if (voted_.at<std::uint8_t>(edge) != 0) {
       votes_.take_back(edge, normals_.at<std::uint8_t>(edge));

@@ -9,7 +9,7 @@
 namespace milepost {
 namespace {
 
-constexpr int kNormalReach = 3;  // points of an outline to either side that give its direction
+constexpr int kNormalReach = 3;  // points of an outline to either side that determine its normal
 
 Picture resampled(const Picture& picture, double metres_per_pixel) {
   const double factor = picture.grid.metres_per_pixel / metres_per_pixel;
@@ -20,7 +20,7 @@ Picture resampled(const Picture& picture, double metres_per_pixel) {
   return coarse;
 }
 
-// The sums over the pixels of each label that become its mean and deviation.
+// Sums over the pixels of each label, for its mean and standard deviation.
 struct Sums {
   int pixels = 0;
   Eigen::Vector3d lab = Eigen::Vector3d::Zero();
@@ -51,7 +51,7 @@ std::vector<Sums> sums_by_label(const RegionMap& map) {
   return all;
 }
 
-// The longest outline of the pixels of a label, in pixels of the map.
+// The longest contour of the pixels of a label, in pixels of the map.
 std::vector<cv::Point> contour_of(const RegionMap& map, int label, const Sums& sums) {
   const cv::Rect box(cv::Point(sums.left, sums.first.y),
                      cv::Point(sums.right + 1, sums.bottom + 1));
@@ -98,11 +98,11 @@ Region region_of(const RegionMap& map, int label, const Sums& sums) {
   return region;
 }
 
-// What the maps of all scales share: grid, lab and kinds.
+// The fields that the maps of all scales share: grid, lab and kinds.
 RegionMap without_regions(const Picture& picture, double shadow_threshold,
                           const ClutterSettings& clutter, const RegionSettings& settings) {
   Picture coarse = resampled(picture, settings.metres_per_pixel);
-  // In fractions of grey values: in whole ones a roof of slowly changing light would have steps.
+  // In floating point: integer grey values would have steps on a roof with a shading gradient.
   cv::Mat unit, smooth, grey;
   coarse.bgr.convertTo(unit, CV_32F, 1.0 / 255);
   cv::bilateralFilter(unit, smooth, 9, 30.0 / 255, 3);

@@ -1,4 +1,4 @@
-// The regions of a picture with what tells roofs from ground.
+// The regions of a picture, with features that distinguish roofs from ground.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ struct OutlinePoint {
 struct Region {
   int label = 0;
   double area_m2 = 0;
-  double length_m = 0;       // of the smallest rectangle around it
+  double length_m = 0;       // of the smallest enclosing rectangle
   double width_m = 0;        // the same, at most the length
   double texture = 0;        // standard deviation of L
   Eigen::Vector3d mean_lab;  // CIE Lab, L 0 to 100
@@ -33,8 +33,8 @@ struct RegionSettings {
   double metres_per_pixel = 0.2;
   double min_area_m2 = 4;
   double min_segment_m2 = 2;  // smaller segments join a neighbour
-  // Of the segmentation: the finest takes a roof apart by its light, the coarsest takes like roofs
-  // together, and each roof is whole in one of them.
+  // Of the segmentation: the finest splits a roof by its shading, the coarsest merges similar
+  // roofs, and each roof is whole in one of them.
   std::vector<double> scales = {30, 60, 120, 250};
 };
 
@@ -49,7 +49,7 @@ struct RegionMap {
   std::vector<Region> regions;  // ascending by label
 };
 
-// A map a scale, in their order. `shadow_threshold`: of grey values, below which a pixel is in
+// One map per scale, in their order. `shadow_threshold`: grey value below which a pixel is in
 // shadow. Safe from several threads.
 std::vector<RegionMap> region_maps(const Picture& picture, double shadow_threshold,
                                    const ClutterSettings& clutter, const RegionSettings& settings);

@@ -18,16 +18,16 @@
 namespace milepost {
 namespace {
 
-constexpr double kLineWidthM = 0.8;      // of a straight line, for outlines that lie on it
+constexpr double kLineWidthM = 0.8;      // of a straight line, for outlines on it
 constexpr double kMaxLineTurnDeg = 25;   // between such a line and the outline
-constexpr double kOutsideM = 1;          // beyond an outline, what is outside is looked at
-constexpr double kLowEavesM = 2;         // the shadow of a roof is taken to be that of such eaves
+constexpr double kOutsideM = 1;          // from an outline to the samples outside
+constexpr double kLowEavesM = 2;         // assumed height of eaves, for the shadow of a roof
 constexpr double kMinShadeCosine = 0.5;  // of an outline's normal with the shadow's direction
-constexpr double kNeighbourM = 0.6;      // apart are pixels whose regions are neighbours
-constexpr double kLikeColour = 6;        // distance in a and b at which colours are hardly alike
-constexpr double kLikeGrey = 9;          // the same in L, in a picture without colours
-constexpr double kMinColour = 3;         // distance from grey of a colour
-constexpr double kRidge = 5;             // of the logistic regression of looks
+constexpr double kNeighbourM = 0.6;      // largest gap between neighbouring regions
+constexpr double kLikeColour = 6;        // distance in a and b at which colours are dissimilar
+constexpr double kLikeGrey = 9;          // the same in L, for a picture without colours
+constexpr double kMinColour = 3;         // least distance of a colour from grey
+constexpr double kRidge = 5;             // of the logistic regression on appearance
 constexpr double kMaxLogOdds = 9;
 
 double log_odds(double probability) {
@@ -43,7 +43,7 @@ cv::Point nearest_inside(const Eigen::Vector2d& at, const cv::Mat& picture) {
           std::clamp(static_cast<int>(std::lround(at.y())), 0, picture.rows - 1)};
 }
 
-// The angle of the straight line at each pixel of the map, 0 to pi; -1 where there is none.
+// The angle of the straight line at each pixel of the map, 0 to pi; -1 if there is none.
 cv::Mat angles_of(const WallLines& lines, const RegionMap& map) {
   cv::Mat angles(map.labels.size(), CV_32FC1, cv::Scalar::all(-1));
   const int width =
@@ -107,7 +107,7 @@ RoofFeatures features_of(const Region& region, const RegionMap& map, const cv::M
           {std::log(region.texture + 1), green / points, std::log(contrast / points + 1)}};
 }
 
-// What looks say: a logistic regression on colour and looks, the colour's squares and products.
+// Terms of the logistic regression on appearance: colour, its squares and products, and looks.
 constexpr int kTerms = 13;
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 
@@ -130,7 +130,8 @@ std::vector<Terms> terms_of(const std::vector<Region>& regions,
   return terms;
 }
 
-// The weights of least log loss plus a ridge, by Newton's method. `wanted` are probabilities.
+// The weights that minimize log loss with a ridge penalty, by Newton's method. `wanted` are target
+// probabilities.
 Terms fitted(const std::vector<Terms>& terms, const std::vector<double>& wanted,
              const std::vector<double>& weights) {
   Terms ridge = Terms::Constant(kRidge);
@@ -149,14 +150,14 @@ Terms fitted(const std::vector<Terms>& terms, const std::vector<double>& wanted,
   return solution;
 }
 
-// 0 for the same colour, 1 for colours that are hardly alike. Two sides of one roof have the same
-// hue, not the same lightness.
+// 0 for the same colour, 1 for dissimilar colours. Two sides of one roof have the same hue, not the
+// same lightness.
 double unlikeness(const Region& a, const Region& b, bool in_grey) {
   const Eigen::Vector3d apart = a.mean_lab - b.mean_lab;
   return in_grey ? std::abs(apart[0]) / kLikeGrey : apart.tail<2>().norm() / kLikeColour;
 }
 
-// Of each region its neighbours, with the share of its border that each has, less where the colours
+// The neighbours of each region, weighted by their share of its border, and less where colours
 // differ.
 using Neighbours = std::vector<std::map<std::size_t, double>>;
 
@@ -199,7 +200,7 @@ double by_shape(const RoofFeatures& features, const RoofSettings& settings) {
                             settings.shape_weights.begin(), settings.shape_bias);
 }
 
-// The mean of the picture over one side of a line, between two distances from it.
+// The mean of the picture on one side of a line, between two distances from it.
 double mean_beside(const cv::Mat& picture, const Eigen::Vector2d& begin, const Eigen::Vector2d& end,
                    const Eigen::Vector2d& side, std::span<const double> distances_px) {
   const int steps = std::max(2, static_cast<int>((end - begin).norm()));

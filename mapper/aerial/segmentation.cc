@@ -14,7 +14,7 @@ struct Edge {
   int b;
 };
 
-// Sets of pixels that grow together.
+// A disjoint-set forest of pixels.
 class Forest {
  public:
   Forest(int count, float threshold)
@@ -45,7 +45,7 @@ class Forest {
   std::vector<float> thresholds_;  // the paper's internal difference plus k / size
 };
 
-// From each pixel to its neighbours to the right and below, the closest colours first.
+// The edges of each pixel to its neighbours to the right and below, the closest colours first.
 std::vector<Edge> edges_of(const cv::Mat& lab, const cv::Mat& kinds) {
   const std::array<cv::Point, 4> steps = {cv::Point(1, 0), {0, 1}, {1, 1}, {-1, 1}};
   std::vector<Edge> edges;

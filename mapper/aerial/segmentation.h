@@ -1,5 +1,5 @@
-// A picture in regions of one colour each: the graph-based segmentation of Felzenszwalb and
-// Huttenlocher (IJCV 59, 2004).
+// Segmentation of a picture by colour: the graph-based method of Felzenszwalb and Huttenlocher
+// (IJCV 59, 2004).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,8 +7,8 @@
 namespace milepost {
 
 struct SegmentationSettings {
-  double scale = 60;         // the paper's k: greater gives larger regions
-  double min_region_m2 = 2;  // smaller ones join a neighbour
+  double scale = 60;         // the paper's k: a greater one gives larger regions
+  double min_region_m2 = 2;  // smaller ones are merged into a neighbour
 };
 
 struct Segmentation {
@@ -16,8 +16,8 @@ struct Segmentation {
   int count = 0;
 };
 
-// Neighbours, diagonal ones too, join by the distance of their colours; pixels of different kinds
-// never do. REQUIRES: `lab` is CV_32FC3, `kinds` CV_8UC1 of the same size.
+// Merges neighbours (8-connected) by the distance of their colours; pixels of different kinds are
+// never merged. REQUIRES: `lab` is CV_32FC3, `kinds` CV_8UC1 of the same size.
 Segmentation segmented(const cv::Mat& lab, const cv::Mat& kinds, double metres_per_pixel,
                        const SegmentationSettings& settings);
 

@@ -10,8 +10,7 @@
 namespace milepost {
 namespace {
 
-// Otsu's threshold: the one that parts the grey values into two classes whose means differ the
-// most.
+// Otsu's threshold: the one that maximizes the variance between the two classes of grey values.
 double otsu_threshold(const std::array<double, 256>& histogram) {
   double total = 0;
   double sum = 0;

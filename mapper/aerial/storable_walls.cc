@@ -14,8 +14,8 @@ namespace {
 
 using GeographicLib::GeodesicLine;
 
-constexpr double kMaxSpanDeg = 0.1 - 2e-8;  // FORMAT.md 6.4, less what rounding to steps may add
-constexpr double kShortestM = 0.001;        // about a step of latitude
+constexpr double kMaxSpanDeg = 0.1 - 2e-8;         // FORMAT.md 6.4, minus the rounding to steps
+constexpr double kShortestM = 0.001;               // about a step of latitude
 constexpr std::size_t kMaxMorePieces = 1'000'000;  // than walls
 constexpr int kHalvings = 60;                      // of a wall, to find where it meets a meridian
 
@@ -28,7 +28,7 @@ bool fits_in_tile(const Wall& wall) {
          std::abs(wall.end.longitude_deg - wall.begin.longitude_deg) <= kMaxSpanDeg;
 }
 
-// Cuts one wall. Longitudes along it go on beyond 180 degrees.
+// Cuts one wall. Longitudes along it continue beyond 180 degrees.
 class WallCutter {
  public:
   WallCutter(const Wall& wall, std::vector<Wall>& pieces)
@@ -114,7 +114,7 @@ Result<std::vector<Wall>> storable_walls(const std::vector<Wall>& walls) {
   for (const Wall& wall : walls) {
     if (!is_on_earth(wall.begin) || !is_on_earth(wall.end)) {
       return Error{ErrorCode::invalid_input, "a wall",
-                   "one of its ends is not a place on the Earth",
+                   "one of its ends is not a position on the Earth",
                    "correct the georeference of the image"};
     }
     if (fits_in_tile(wall)) {
@@ -125,7 +125,7 @@ Result<std::vector<Wall>> storable_walls(const std::vector<Wall>& walls) {
     if (pieces.size() > walls.size() + kMaxMorePieces) {
       return Error{ErrorCode::invalid_input, "walls near a pole",
                    "they would be cut into more than a million pieces",
-                   "leave out those about the pole"};
+                   "leave out those near the pole"};
     }
   }
   for (Wall& piece : pieces) piece = quantized(piece);

@@ -1,4 +1,4 @@
-// Where the sun stood when a picture was taken.
+// The position of the sun when a picture was taken.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +6,7 @@
 namespace milepost {
 
 struct Sun {
-  double azimuth_deg = 180;   // clockwise from north: where the light comes from
+  double azimuth_deg = 180;   // of the sun, clockwise from north
   double elevation_deg = 45;  // above the horizon
 };
 

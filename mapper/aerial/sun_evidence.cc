@@ -10,20 +10,20 @@
 namespace milepost {
 namespace {
 
-constexpr double kMinAreaM2 = 6;     // of a region that may be a roof
+constexpr double kMinAreaM2 = 6;     // of a candidate roof region
 constexpr double kMaxAreaM2 = 2500;  // the same
 constexpr double kMinWidthM = 1.5;   // the same
 constexpr double kMinFilled = 0.7;   // share of its rectangle, the same
-constexpr double kMinDarker = 0.2;   // share of a region's lightness that is missing in a shadow
-constexpr double kMaxDarker = 0.7;   // and beyond which no more is counted
+constexpr double kMinDarker = 0.2;   // least relative loss of lightness in a shadow
+constexpr double kMaxDarker = 0.7;   // at which the loss saturates
 constexpr double kDegPerDirection = 2;
-constexpr double kBorderFromM = 0.5;    // from a corner, where a shadow's border is looked at
-constexpr double kBorderToM = 4;        // and where that ends
+constexpr double kBorderFromM = 0.5;    // from a corner, where sampling of a shadow's border begins
+constexpr double kBorderToM = 4;        // and where it ends
 constexpr int kBorderSteps = 14;        // from the one to the other
-constexpr double kBesideBorderM = 0.5;  // where it is lit, to the other side dark
-constexpr int kSmoothing = 3;           // directions to either side that are one
-constexpr int kSearched = 22;           // directions to either side of the rough one
-constexpr double kMinAgreement = 0.1;   // share of shaded outline that points one way
+constexpr double kBesideBorderM = 0.5;  // from the border to its lit and dark samples
+constexpr int kSmoothing = 3;           // directions to either side that are averaged
+constexpr int kSearched = 22;           // directions to either side of the coarse estimate
+constexpr double kMinAgreement = 0.1;   // share of shaded outline that agrees in direction
 
 bool may_be_roof(const Region& region) {
   return region.area_m2 >= kMinAreaM2 && region.area_m2 <= kMaxAreaM2 &&
@@ -37,7 +37,7 @@ double lightness_at(const RegionMap& map, const Eigen::Vector2d& at_px) {
   return map.lab.at<cv::Vec3f>(y, x)[0];
 }
 
-// The mean lightness outside of a point of an outline, 0.6 to 1.4 m away.
+// The mean lightness outside of an outline point, 0.6 to 1.4 m away.
 double lightness_outside(const RegionMap& map, const OutlinePoint& point) {
   double sum = 0;
   for (const double distance_m : {0.6, 1.0, 1.4}) {
@@ -46,8 +46,8 @@ double lightness_outside(const RegionMap& map, const OutlinePoint& point) {
   return sum / 3;
 }
 
-// The normals of a region's outline where it is dark outside, by how dark and how long: east,
-// north.
+// The sum of the normals of a region's outline where it is dark outside, weighted by darkness and
+// length: east, north.
 Eigen::Vector2d shaded_sides_of(const Region& region, const RegionMap& map) {
   Eigen::Vector2d sides = Eigen::Vector2d::Zero();
   for (const OutlinePoint& point : region.outline) {
@@ -60,8 +60,8 @@ Eigen::Vector2d shaded_sides_of(const Region& region, const RegionMap& map) {
   return sides;
 }
 
-// How much lighter it is beyond the line that runs from `corner_px` along the light than within,
-// as a share: -1 to 1. `beyond` is a unit vector across that line, away from the shadow.
+// The relative contrast, -1 to 1, between the lit and the shadow side of the line that runs from
+// `corner_px` along the light. `beyond` is a unit vector across that line, away from the shadow.
 double border_contrast(const RegionMap& map, const Eigen::Vector2d& corner_px,
                        const Eigen::Vector2d& light, const Eigen::Vector2d& beyond) {
   const Eigen::Vector2d aside = kBesideBorderM / map.grid.metres_per_pixel * beyond;

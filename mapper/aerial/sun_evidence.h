@@ -1,4 +1,4 @@
-// Where the sun stood, from the shadows of a picture.
+// Estimates the sun's azimuth from the shadows of a picture.
 #pragma once
 
 #include <array>
@@ -10,22 +10,22 @@
 
 namespace milepost {
 
-// What the blocks of a picture tell of the direction of its shadows. Compact regions, most of them
-// roofs, are dark beyond the sides on which their shadows fall: that tells the direction roughly,
-// for a side is in shade whatever the angle. From a roof's outermost corners the borders of its
-// shadow run just as the light does: that tells it well.
+// Accumulates the direction of shadows over the blocks of a picture. Compact regions, most of them
+// roofs, are dark beyond the sides on which their shadows fall: this gives a coarse direction,
+// since a side is in shade at any angle. The borders of a shadow that start at a roof's outermost
+// corners are parallel to the light: this gives an accurate direction.
 class SunEvidence {
  public:
   void add(const RegionMap& map);
 
-  // Where the light comes from, clockwise from north; none if there are no shadows that agree.
+  // The sun's azimuth, clockwise from north; none if the shadows do not agree on one.
   std::optional<double> azimuth_deg() const;
 
  private:
   static constexpr int kDirections = 180;
 
   std::optional<double> rough_azimuth_deg() const;
-  // Around a direction of the light: how well borders of shadows run along it.
+  // Averaged around a direction of the light: how well borders of shadows align with it.
   double border_at(int direction) const;
 
   Eigen::Vector2d shaded_sides_ = Eigen::Vector2d::Zero();  // east, north: sum of normals

@@ -12,7 +12,7 @@ namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMaxCopies = 20'000'000;  // of walls in a second and further cells
+constexpr std::size_t kMaxCopies = 20'000'000;  // of walls, in all cells after their first
 
 Status copy_segment(const MapReader& from, const std::string& id, MapWriter& to) {
   const Result<StoredSegment> segment = from.segment(id);
@@ -43,7 +43,7 @@ Status copy_cells(const MapReader& from, const std::string& layer, MapWriter& to
   return ok_status();
 }
 
-// Everything but the walls.
+// Copies everything except the walls.
 Status copy_others(const MapReader& from, MapWriter& to) {
   if (const Status status = to.set_feature_json(from.feature_json()); !status) return status;
   for (const auto& [layer, parameters] : from.layers()) {
@@ -57,7 +57,7 @@ Status copy_others(const MapReader& from, MapWriter& to) {
   return ok_status();
 }
 
-// What no reader would take is not written. Errors: those of decode_walls.
+// Rejects what a reader would reject. Errors: those of decode_walls.
 Status check_readable(const Bytes& frame, const fs::path& map_file) {
   const Result<WallTile> tile = decode_walls(frame);
   if (tile) return ok_status();
@@ -73,7 +73,7 @@ Status add_walls(const std::vector<WallTile>& tiles, const fs::path& map_file, M
                    map_file.string() + ", cell " + std::to_string(tile.cell),
                    "it would hold " + std::to_string(tile.walls.size()) + " walls, more than " +
                        std::to_string(kMaxWallsPerTile),
-                   "ask for longer lines"};
+                   "require longer lines (--min-length-m)"};
     }
     const Bytes frame = encode_walls(tile);
     if (const Status status = check_readable(frame, map_file); !status) return status;
@@ -90,7 +90,7 @@ std::size_t cells_of(const Wall& wall) {
   return std::size_t{last.row - first.row + 1} * (last.column - first.column + 1);
 }
 
-// Whether the tiles fit into memory: a wall is whole in each cell that its box meets.
+// Checks that the tiles fit into memory: a wall is stored whole in each cell that its box meets.
 Status check_copies(const std::vector<Wall>& walls, const fs::path& map_file) {
   std::size_t copies = 0;
   for (const Wall& wall : walls) copies += cells_of(wall) - 1;
@@ -125,7 +125,7 @@ Result<WallLayerReport> write_wall_layer(const fs::path& map_file, const std::ve
     if (!old) return old.error();
     if (const Status status = copy_others(*old, *writer); !status) return status.error();
   }
-  // A file's name may be no UTF-8.
+  // A file's name may not be valid UTF-8.
   const std::string parameters_text =
       to_json(parameters).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   if (const Status status = writer->add_layer(layers::kWalls, parameters_text); !status) {

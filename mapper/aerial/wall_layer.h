@@ -13,16 +13,15 @@ namespace milepost {
 
 struct WallLayerReport {
   std::string build;
-  std::size_t walls = 0;  // as they are stored: cut, each once
+  std::size_t walls = 0;  // as stored: cut, without duplicates
   double length_m = 0;    // of them all
   std::size_t cells = 0;
 };
 
-// Writes a map with the walls in the layer `walls`, as storable_walls cuts them. Where `map_file`
-// exists, all else that it holds is kept and only this layer is replaced. The file appears whole
-// or not at all, and our readers take what it holds. Errors:
-// corrupt (the old map), invalid_input (too many walls in one place or walls in too many, those of
-// storable_walls), io.
+// Writes a map with the walls in the layer `walls`, as storable_walls cuts them. If `map_file`
+// exists, its other content is kept and only this layer is replaced. The file appears complete or
+// not at all, and is readable. Errors: corrupt (the old map), invalid_input (too many walls in one
+// cell, or in all cells together; those of storable_walls), io.
 Result<WallLayerReport> write_wall_layer(const std::filesystem::path& map_file,
                                          const std::vector<Wall>& walls,
                                          const WallLayerParameters& parameters);

@@ -1,4 +1,4 @@
-// A piece of a building's outline in plan view, while it is being found.
+// A piece of a building's outline in plan view, during extraction.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace milepost {
 
 // Between two points in metres east and north of a ground frame's origin. The interior of the
-// building, where it is known, is on the right, looking from begin to end.
+// building, if known, is on the right, looking from begin to end.
 struct WallLine {
   Eigen::Vector2d begin_m;
   Eigen::Vector2d end_m;
@@ -18,12 +18,12 @@ struct WallLine {
 
 using WallLines = std::vector<WallLine>;
 
-// From begin to end, of length 1. REQUIRES: the ends differ.
+// The unit vector from begin to end. REQUIRES: the ends differ.
 inline Eigen::Vector2d direction_of(const WallLine& line) {
   return (line.end_m - line.begin_m).normalized();
 }
 
-// A quarter turn to the right.
+// Rotates by 90 degrees to the right.
 inline Eigen::Vector2d right_of(const Eigen::Vector2d& direction) {
   return {direction.y(), -direction.x()};
 }

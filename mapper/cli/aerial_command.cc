@@ -1,5 +1,3 @@
-#include "mapper/cli/aerial_command.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -14,6 +12,7 @@
 #include "mapper/aerial/footprints.h"
 #include "mapper/aerial/storable_walls.h"
 #include "mapper/aerial/wall_layer.h"
+#include "mapper/cli/commands.h"
 #include "schema/base/digits.h"
 #include "schema/command/command.h"
 
@@ -21,9 +20,27 @@ namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kSettings = "Settings (each changes the walls)";
-constexpr double kImageSigmaM = 0.4;      // r.m.s. of what lies within 1 m of a true outline
-constexpr double kFootprintSigmaM = 0.5;  // OpenStreetMap's are drawn by hand on images
+constexpr const char* kAerialDescription =
+    R"(Extracts the walls of buildings from aerial data into the layer walls of a map, by which a
+vehicle is localized globally without GNSS.
+
+With --image an orthoimage of any projection that GDAL reads is processed; its pixels are
+of at most 1.2 m on the ground, its corners within 100 km of the middle. Edges are detected at
+several thresholds, without the borders of shadows on the ground and without
+vegetation; then lines, the longest first; roofs, by shape, shadow and the colours of the
+image's own clearest roofs, and the lines at their edges; then segments of one line are
+merged, and lines that meet no other at either end are dropped.
+With --footprints the outlines of a GeoJSON file (WGS84), as OpenStreetMap has them, become
+walls, and the image, if there is one, adds those that they do not cover.
+A wall across longitude 180 is split there.
+An existing map keeps its segments and other layers, its walls are replaced; the file is
+changed on success only, and not if no wall was found.
+Example: milepost-mapper aerial --image town.tif --map maps/town.map
+         milepost-mapper aerial --footprints town.geojson --map maps/town.map)";
+
+constexpr const char* kWallSettings = "Settings (each changes the walls)";
+constexpr double kImageSigmaM = 0.4;      // r.m.s. error of walls within 1 m of a true outline
+constexpr double kFootprintSigmaM = 0.5;  // OpenStreetMap's are digitized by hand on images
 
 const std::map<std::string, Stage> kStages = {
     {"closure", Stage::closure},         {"corners", Stage::corners}, {"merging", Stage::merging},
@@ -35,33 +52,31 @@ struct AerialOptions {
   std::string footprints;
   std::string map;
   std::string debug_images;
-  std::vector<std::string> without;
+  std::vector<std::string> without;  // names of stages
   bool allow_empty = false;
-  double sun_azimuth_deg = 0;
-  double sun_elevation_deg = 0;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   ExtractionSettings settings;
 };
 
-void add_options(CLI::App& app, AerialOptions& options) {
+void add_aerial_options(CLI::App& app, AerialOptions& options) {
   app.add_option("--image", options.image.file, "Orthoimage to find walls in")->option_text("FILE");
   app.add_option("--image-crs", options.image.reference,
-                 "What the image's coordinates are, where it does not say: EPSG:3857")
+                 "Coordinate reference system of an image that does not state it: EPSG:3857")
       ->option_text("CRS");
   app.add_option("--bands", options.image.bands,
-                 "Which bands of the image to look at, counted from 1: one of grey or three of "
+                 "Bands of the image to use, counted from 1: one of grey or three of "
                  "red,\n"
                  "green and blue, and after them one of transparency, if it has one (default: what "
                  "the\n"
-                 "image says of them; a band that it calls transparency but that has many values\n"
-                 "between 0 and 255, as near infrared, is not taken for it)")
+                 "image's tags say; a band that is tagged as transparency but has many values\n"
+                 "between 0 and 255, as near infrared, is not used as such)")
       ->delimiter(',')
       ->option_text("R,G,B[,A]");
   app.add_option("--footprints", options.footprints,
-                 "GeoJSON of building outlines, which become walls as they are")
+                 "GeoJSON of building outlines, which become walls unchanged")
       ->option_text("FILE");
   app.add_option("--map", options.map,
-                 "Map file to write the layer walls into; all else that it holds stays")
+                 "Map file to write the layer walls into; its other content is kept")
       ->required()
       ->option_text("FILE");
   app.add_flag("--allow-empty", options.allow_empty,
@@ -70,36 +85,36 @@ void add_options(CLI::App& app, AerialOptions& options) {
                  "Folder for a picture of each stage of each block")
       ->option_text("DIR");
   add_number(app, "--jobs", options.jobs, "N",
-             "Threads that look at blocks; the walls are the same for any number", 1, 256);
+             "Threads that process blocks; the walls are the same for any number", 1, 256);
 
   ExtractionSettings& settings = options.settings;
-  app.add_option("--sun-azimuth-deg", options.sun_azimuth_deg,
-                 "Where the light came from, clockwise from north (0 to 360; without it: estimated "
+  app.add_option("--sun-azimuth-deg", settings.sun_azimuth_deg,
+                 "Azimuth of the sun, clockwise from north (0 to 360; without it: estimated "
                  "from the shadows)")
       ->check(CLI::Range(0.0, 360.0))
       ->option_text("DEG")
-      ->group(kSettings);
-  app.add_option("--sun-elevation-deg", options.sun_elevation_deg,
-                 "The sun's height above the horizon (1 to 90; without it: 45)")
+      ->group(kWallSettings);
+  app.add_option("--sun-elevation-deg", settings.sun_elevation_deg,
+                 "Elevation of the sun above the horizon (1 to 90; without it: 45)")
       ->check(CLI::Range(1.0, 90.0))
       ->option_text("DEG")
-      ->group(kSettings);
+      ->group(kWallSettings);
   app.add_option("--without", options.without,
                  "Leave a stage out: shadows, vegetation, progressive, roofs, merging, closure or "
                  "corners; may "
                  "be repeated")
       ->check(CLI::IsMember(kStages))
       ->option_text("STAGE")
-      ->group(kSettings);
+      ->group(kWallSettings);
   add_number(app, "--metres-per-pixel", settings.metres_per_pixel, "M",
-             "Size of a pixel on the ground that is worked with", 0.02, 1)
-      ->group(kSettings);
-  add_number(app, "--min-length-m", settings.hough.shortest_m, "M", "Least length of a line", 0.5,
+             "Size on the ground of the pixels to work with", 0.02, 1)
+      ->group(kWallSettings);
+  add_number(app, "--min-length-m", settings.hough.shortest_m, "M", "Minimum length of a line", 0.5,
              20)
-      ->group(kSettings);
+      ->group(kWallSettings);
   add_number(app, "--min-roof-difference", settings.roof_edges.min_difference, "X",
-             "Between both sides of a wall, of the probability to be a roof", 0, 1)
-      ->group(kSettings);
+             "Minimum difference of the roof probability between both sides of a wall", 0, 1)
+      ->group(kWallSettings);
 }
 
 Wall wall_of(const WallLine& line, const GroundFrame& frame) {
@@ -115,7 +130,7 @@ WallLine line_of(const Wall& wall, const GroundFrame& frame) {
           frame.ground_from_geo({wall.end.latitude_deg, wall.end.longitude_deg, 0})};
 }
 
-// The walls of footprints, and those of the image that no footprint has.
+// The walls of footprints, and those of the image that no footprint covers.
 std::vector<Wall> all_walls(std::vector<Wall> footprints,
                             const std::optional<ExtractedWalls>& extracted) {
   if (!extracted) return footprints;
@@ -147,11 +162,11 @@ WallLayerParameters parameters_of(const AerialOptions& options,
   return parameters;
 }
 
-// What became of a band, where it is not what the image says; else nothing.
+// A note on a band that is not used as tagged; empty if there is none.
 std::string note_on_bands(const ImageBands& bands) {
   if (bands.distrusted_alpha == 0) return "";
   return "band " + std::to_string(bands.distrusted_alpha) +
-         " is taken for data, not for transparency";
+         " is treated as data, not as transparency";
 }
 
 std::string summary_line(const AerialOptions& options, const WallLayerReport& report,
@@ -168,7 +183,7 @@ std::string summary_line(const AerialOptions& options, const WallLayerReport& re
   return line;
 }
 
-constexpr const char* kAllowEmpty = "or write the map without walls by --allow-empty";
+constexpr const char* kAllowEmpty = "or write the map without walls with --allow-empty";
 
 Error no_wall_in_footprints(const AerialOptions& options, const std::string& contents) {
   return {ErrorCode::invalid_input, options.footprints, "it holds " + contents + ", so no wall",
@@ -178,17 +193,17 @@ Error no_wall_in_footprints(const AerialOptions& options, const std::string& con
 Error no_wall_in_image(const AerialOptions& options, const ExtractedWalls& extracted) {
   const std::string file = options.image.file.string();
   if (!extracted.shows_anything) {
-    return {ErrorCode::invalid_input, file, "all of it is transparent or without data",
-            std::string("choose its bands by --bands, ") + kAllowEmpty};
+    return {ErrorCode::invalid_input, file, "the whole image is transparent or without data",
+            std::string("choose its bands with --bands, ") + kAllowEmpty};
   }
   const std::string note = note_on_bands(extracted.bands);
   return {ErrorCode::invalid_input, file,
           "no wall was found in it" + (note.empty() ? note : " (" + note + ")"),
-          std::string("look at what became of it (--debug-images), ") + kAllowEmpty};
+          std::string("inspect its stages (--debug-images), ") + kAllowEmpty};
 }
 
-// The walls of the footprints, if there is a file of them. Errors: those of read_footprints;
-// invalid_input where it has none.
+// The walls of the footprints, if a file is given. Errors: those of read_footprints; invalid_input
+// if it has none.
 Result<std::vector<Wall>> footprint_walls(const AerialOptions& options) {
   if (options.footprints.empty()) return std::vector<Wall>();
   Result<Footprints> footprints = read_footprints(options.footprints);
@@ -220,59 +235,25 @@ Status make_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) return ok_status();
-  return Error{ErrorCode::io, folder, "the folder cannot be made (" + error.message() + ")",
-               "give another one with --debug-images"};
+  return Error{ErrorCode::io, folder, "the folder cannot be created (" + error.message() + ")",
+               "give another folder with --debug-images"};
 }
 
-}  // namespace
-
-int run_aerial(const std::string& program, std::vector<std::string> words) {
-  CLI::App app(
-      "Finds the walls of buildings from above and writes them into a map as its layer walls, by\n"
-      "which a vehicle finds itself without GPS.\n\n"
-      "With --image an orthoimage is searched, of any projection that GDAL reads; its pixels are\n"
-      "of at most 1.2 m on the ground, its corners within 100 km of the middle. Edges are found "
-      "at\n"
-      "several settings, without the borders that shadows have on the ground and without\n"
-      "vegetation; lines, the longest first; roofs, by shape, shadow and the colours that the\n"
-      "image's own clearest roofs have, and the lines at their edges; then what is one line is\n"
-      "joined, and lines that meet no other at either end are left out.\n"
-      "With --footprints the outlines of a GeoJSON file (WGS84), as OpenStreetMap has them, "
-      "become\n"
-      "walls, and the image, if there is one, adds those that it knows beside them.\n"
-      "A wall across longitude 180 is cut there.\n"
-      "An old map keeps its segments and other layers, its old walls are replaced; the file is\n"
-      "changed when all is done, and not where no wall was found.\n"
-      "Example: milepost-mapper aerial --image town.tif --map maps/town.map\n"
-      "         milepost-mapper aerial --footprints town.geojson --map maps/town.map",
-      program);
-  AerialOptions options;
-  add_options(app, options);
-  if (const auto code = parse_words(app, std::move(words))) return *code;
-  if (app.count("--bands") > 0) {
-    const Result<ImageBands> bands = bands_named(options.image.bands);
-    if (!bands) {
-      std::cerr << program << ": " << bands.error().line() << "\n";
-      return kExitWrongCall;
-    }
-  }
+// Throws: CLI::ParseError, where the options contradict each other.
+void check_options(const AerialOptions& options) {
   if (options.image.file.empty() && options.footprints.empty()) {
-    std::cerr << program << ": --image or --footprints is required; see '" << program
-              << " --help'\n";
-    return kExitWrongCall;
+    throw CLI::RequiredError("--image or --footprints");
   }
-  for (const std::string& stage : options.without) {
-    options.settings.without.insert(kStages.at(stage));
+  if (options.image.bands.empty()) return;
+  const Result<ImageBands> bands = bands_named(options.image.bands);
+  if (!bands) {
+    throw CLI::ValidationError("--bands", bands.error().what + "; " + bands.error().hint);
   }
-  if (app.count("--sun-azimuth-deg") > 0) {
-    options.settings.sun_azimuth_deg = options.sun_azimuth_deg;
-  }
-  if (app.count("--sun-elevation-deg") > 0) {
-    options.settings.sun_elevation_deg = options.sun_elevation_deg;
-  }
+}
 
+int extract(const std::string& program, const AerialOptions& options) {
   catch_stop_signals();
-  cv::setNumThreads(1);  // one block a thread uses the cores better than many threads a block
+  cv::setNumThreads(1);  // one block per thread uses the cores better than many threads per block
   Result<std::vector<Wall>> footprints = footprint_walls(options);
   if (!footprints) return fail(program, footprints.error());
   if (const Status made = make_folder(options.debug_images); !made) {
@@ -291,6 +272,21 @@ int run_aerial(const std::string& program, std::vector<std::string> words) {
   if (!report) return fail(program, report.error());
   std::cout << summary_line(options, *report, *extracted) << "\n";
   return kExitDone;
+}
+
+}  // namespace
+
+RunCommand add_aerial(CLI::App& app) {
+  app.description(kAerialDescription);
+  const auto options = std::make_shared<AerialOptions>();
+  add_aerial_options(app, *options);
+  app.callback([options] {
+    check_options(*options);
+    for (const std::string& stage : options->without) {
+      options->settings.without.insert(kStages.at(stage));
+    }
+  });
+  return [options, program = name_of(app)] { return extract(program, *options); };
 }
 
 }  // namespace milepost

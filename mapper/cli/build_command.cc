@@ -1,5 +1,3 @@
-#include "mapper/cli/build_command.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -7,6 +5,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "mapper/cli/commands.h"
 #include "mapper/pipeline/build_map.h"
 #include "schema/base/digits.h"
 #include "schema/base/output_file.h"
@@ -16,7 +15,16 @@
 namespace milepost {
 namespace {
 
-constexpr const char* kSettings = "Settings (each changes the map)";
+constexpr const char* kBuildDescription =
+    R"(Builds a map from recorded drives.
+
+Each drive becomes a segment of tracklets: SIFT features tracked over consecutive frames.
+For the default method each becomes a landmark, and the most informative are kept;
+with --lab there is a layer for each method to compare with, too. A drive in which nothing is
+found ends the build, and an old map stays.
+Example: milepost-mapper build --drive drives/monday --map maps/town.map)";
+
+constexpr const char* kBuildSettings = "Settings (each changes the map)";
 
 struct BuildOptions {
   std::vector<std::string> drives;
@@ -25,18 +33,17 @@ struct BuildOptions {
   BuildSettings settings;
 };
 
-void add_options(CLI::App& app, BuildOptions& options) {
+void add_build_options(CLI::App& app, BuildOptions& options) {
   app.add_option("--drive", options.drives, "Folder of a recorded drive; may be repeated")
       ->required()
       ->option_text("DIR");
   app.add_option("--map", options.map,
-                 "Map file to write; an old map is replaced when all is done, any other file never")
+                 "Map file to write; an existing map is replaced on success, any other file never")
       ->required()
       ->option_text("FILE");
   add_number(app, "--jobs", options.jobs, "N",
              "Threads that extract features; the map is the same for any number", 1, 256);
-  app.add_flag("--lab", options.settings.lab,
-               "Add the layers that the methods to compare with need");
+  app.add_flag("--lab", options.settings.lab, "Add the layers of the methods for comparison");
   app.add_flag("--allow-empty", options.settings.allow_empty,
                "Write the map even if nothing was found for it");
 
@@ -46,26 +53,26 @@ void add_options(CLI::App& app, BuildOptions& options) {
     using Number = std::remove_reference_t<decltype(value)>;
     add_number(app, "--" + name, value, unit, text, static_cast<Number>(low),
                static_cast<Number>(high))
-        ->group(kSettings);
+        ->group(kBuildSettings);
   };
   setting("max-features", settings.feature.max_features, "N",
-          "Strongest features kept of a frame; 0: all", 0, 1000000);
-  setting("contrast-threshold", settings.feature.contrast_threshold, "X", "SIFT's least contrast",
+          "Strongest features kept per frame; 0: all", 0, 1000000);
+  setting("contrast-threshold", settings.feature.contrast_threshold, "X", "SIFT contrast threshold",
           0, 1);
   setting("min-r-squared", settings.min_r_squared, "X",
-          "Least R^2 of a tracklet's regression (--lab)", 0, 1);
-  setting("min-observations", settings.follow.min_observations, "N", "Least frames of a tracklet",
+          "Minimum R^2 of a tracklet's regression (--lab)", 0, 1);
+  setting("min-observations", settings.follow.min_observations, "N", "Minimum frames of a tracklet",
           3, 1000);
   setting("max-distance-ratio", settings.follow.max_distance_ratio, "X",
           "Ratio test of descriptor distances", 0.1, 1);
   setting("search-radius-px", settings.follow.search_radius_px, "PX",
-          "Least radius of the search area of a followed feature", 1, 500);
+          "Minimum radius of the search area of a tracked feature", 1, 500);
   setting("size-target-kb-per-m", settings.landmarks.size_target_kb_per_m, "KB",
-          "What the default method's layer weighs at most: more landmarks are more exact", 0.01,
+          "Maximum size of the default method's layer; more landmarks are more accurate", 0.01,
           1000);
-  setting("tile-length-m", settings.tile_length_m, "M", "Length of road a tile", 1, 100);
+  setting("tile-length-m", settings.tile_length_m, "M", "Length of road per tile", 1, 100);
   setting("min-frame-spacing-m", settings.min_frame_spacing_m, "M",
-          "Frames nearer to the last one are passed over", 0.01, 100);
+          "Frames nearer to the last one used are skipped", 0.01, 100);
 }
 
 Status check_map_is_free(const std::vector<Drive>& drives, const std::string& map) {
@@ -84,26 +91,11 @@ std::string summary_line(const BuildReport& report, const std::string& map) {
   const double kb_a_metre = static_cast<double>(report.tracklet_bytes) / 1000 / report.length_m;
   return map + ": build " + report.build + ", " + segments + fixed(report.length_m, 1) + " m, " +
          std::to_string(report.frames) + " frames, " + std::to_string(report.tracklets) +
-         " tracklets (" + fixed(tracklets_a_metre, 1) + " a metre) in " +
+         " tracklets (" + fixed(tracklets_a_metre, 1) + " per metre) in " +
          std::to_string(report.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m";
 }
 
-}  // namespace
-
-int run_build(const std::string& program, std::vector<std::string> words) {
-  CLI::App app(
-      "Makes a map from recorded drives.\n\n"
-      "Each drive becomes a segment of tracklets: SIFT features followed over consecutive frames.\n"
-      "For the default method each is placed as a landmark, and those that say the most are kept;\n"
-      "with --lab there is a layer for each method to compare with, too. A drive in which nothing "
-      "is\n"
-      "found ends the build, and an old map stays.\n"
-      "Example: milepost-mapper build --drive drives/monday --map maps/town.map",
-      program);
-  BuildOptions options;
-  add_options(app, options);
-  if (const auto code = parse_words(app, std::move(words))) return *code;
-
+int build(const std::string& program, const BuildOptions& options) {
   std::vector<Drive> drives;
   for (const std::string& folder : options.drives) {
     Result<Drive> drive = read_drive(folder);
@@ -114,7 +106,7 @@ int run_build(const std::string& program, std::vector<std::string> words) {
     return fail(program, free.error());
   }
   catch_stop_signals();
-  cv::setNumThreads(1);  // one frame a thread uses the cores better than many threads a frame
+  cv::setNumThreads(1);  // one frame per thread uses the cores better than many threads per frame
   Result<BuildReport> report = [&] {
     ProgressLine progress;
     return build_map(drives, options.map, options.settings, options.jobs,
@@ -130,6 +122,15 @@ int run_build(const std::string& program, std::vector<std::string> words) {
   }
   std::cout << summary_line(*report, options.map) << "\n";
   return kExitDone;
+}
+
+}  // namespace
+
+RunCommand add_build(CLI::App& app) {
+  app.description(kBuildDescription);
+  const auto options = std::make_shared<BuildOptions>();
+  add_build_options(app, *options);
+  return [options, program = name_of(app)] { return build(program, *options); };
 }
 
 }  // namespace milepost

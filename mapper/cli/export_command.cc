@@ -1,51 +1,62 @@
-#include "mapper/cli/export_command.h"
-
 #include <ostream>
 
+#include "mapper/cli/commands.h"
 #include "mapper/export/geojson.h"
 #include "schema/base/file.h"
 #include "schema/base/output_file.h"
 #include "schema/command/command.h"
 
 namespace milepost {
+namespace {
 
-int run_export(const std::string& program, std::vector<std::string> words) {
-  CLI::App app(
-      "Writes walls or the road network of a map as GeoJSON (RFC 7946), in WGS84.\n\n"
-      "A layer of walls becomes a LineString a wall, with sigma_m; the interior of a building, "
-      "where it\n"
-      "is known, is on the right of its walls. 'segments' becomes a LineString a segment, with "
-      "id,\n"
-      "length_m and successors; its positions have the altitude above the ellipsoid. What crosses\n"
-      "longitude 180 is cut there, into a MultiLineString.\n"
-      "Example: milepost-mapper export --map maps/town.map --layer walls --geojson walls.geojson",
-      program);
-  std::string file;
+struct ExportOptions {
+  std::string map;
   std::string layer;
-  std::string out;
-  app.add_option("--map", file, "Map file to read")->required()->option_text("FILE");
-  app.add_option("--layer", layer, "A layer of walls, or 'segments' for the road network")
-      ->required()
-      ->option_text("NAME");
-  app.add_option("--geojson", out,
-                 "File to write; an old GeoJSON file is replaced when all is done")
-      ->required()
-      ->option_text("FILE");
-  if (const auto code = parse_words(app, std::move(words))) return *code;
+  std::string geojson;
+};
 
-  const Result<MapReader> map = MapReader::open(file);
+constexpr const char* kExportDescription =
+    R"(Writes walls or the road network of a map as GeoJSON (RFC 7946), in WGS84.
+
+A layer of walls becomes one LineString per wall, with sigma_m; the interior of a building, if it
+is known, is on the right of its walls. 'segments' becomes one LineString per segment, with id,
+length_m and successors; its positions have the altitude above the ellipsoid. What crosses
+longitude 180 is split there, into a MultiLineString.
+Example: milepost-mapper export --map maps/town.map --layer walls --geojson walls.geojson)";
+
+int export_layer(const std::string& program, const ExportOptions& options) {
+  const Result<MapReader> map = MapReader::open(options.map);
   if (!map.ok()) return fail(program, map.error());
-  if (const Status free = check_outputs({{"--geojson", out, &kGeoJsonOutput}}, {file}); !free) {
+  if (const Status free =
+          check_outputs({{"--geojson", options.geojson, &kGeoJsonOutput}}, {options.map});
+      !free) {
     return fail(program, free.error());
   }
-  const bool segments = layer == kSegments;
-  const Result<GeoJson> json = segments ? segments_geojson(*map) : walls_geojson(*map, layer);
+  const bool segments = options.layer == kSegments;
+  const Result<GeoJson> json =
+      segments ? segments_geojson(*map) : walls_geojson(*map, options.layer);
   if (!json.ok()) return fail(program, json.error());
-  const Status written = write_text_file(out, json->text);
+  const Status written = write_text_file(options.geojson, json->text);
   if (!written.ok()) return fail(program, written.error());
-  report_stream(out) << out << ": " << json->features << (segments ? " segments" : " walls")
-                     << "\n";
+  report_stream(options.geojson) << options.geojson << ": " << json->features
+                                 << (segments ? " segments" : " walls") << "\n";
   return kExitDone;
+}
+
+}  // namespace
+
+RunCommand add_export(CLI::App& app) {
+  app.description(kExportDescription);
+  const auto options = std::make_shared<ExportOptions>();
+  app.add_option("--map", options->map, "Map file to read")->required()->option_text("FILE");
+  app.add_option("--layer", options->layer, "A layer of walls, or 'segments' for the road network")
+      ->required()
+      ->option_text("NAME");
+  app.add_option("--geojson", options->geojson,
+                 "File to write; an existing GeoJSON file is replaced on success")
+      ->required()
+      ->option_text("FILE");
+  return [options, program = name_of(app)] { return export_layer(program, *options); };
 }
 
 }  // namespace milepost

@@ -15,8 +15,8 @@ using Json = nlohmann::ordered_json;
 using Position = std::vector<double>;  // longitude, latitude and perhaps altitude
 using Positions = std::vector<Position>;
 
-// Where the way from `from` to `to`, the shorter one around the Earth, meets longitude 180: the
-// position as seen from the side of `from`.
+// Where the shorter way from `from` to `to` crosses longitude 180: the position on the side of
+// `from`.
 Position at_180(const Position& from, const Position& to) {
   const double side_deg = std::copysign(180.0, from[0]);
   const double way_deg = to[0] + 2 * side_deg - from[0];
@@ -51,7 +51,7 @@ Json geometry_of(const Positions& line) {
   return {{"type", "MultiLineString"}, {"coordinates", parts}};
 }
 
-// Takes features one by one, so that a large map is never held as a tree.
+// Serializes features one by one, so that a large map is never held as a JSON tree.
 class FeatureCollection {
  public:
   void add(const Positions& line, Json properties) {
@@ -80,7 +80,7 @@ Positions positions_of(const std::vector<StoredVertex>& vertices) {
 
 Position position_of(const WallEnd& end) { return {end.longitude_deg, end.latitude_deg}; }
 
-// The names that --layer may have, in words.
+// The possible values of --layer, for messages.
 std::string layers_of(const MapReader& map) {
   std::string names = kSegments;
   for (const auto& [layer, parameters] : map.layers()) names += ", " + layer;
@@ -110,7 +110,7 @@ Result<GeoJson> segments_geojson(const MapReader& map) {
     if (!segment.ok()) return segment.error();
     if (segment->vertices.size() < 2) {
       return Error{ErrorCode::corrupt, map.file().string() + ", segment " + id,
-                   "a line has two vertices or more", "build the map anew"};
+                   "a line needs two or more vertices", "rebuild the map"};
     }
     collection.add(
         positions_of(segment->vertices),
@@ -133,7 +133,7 @@ Result<GeoJson> walls_geojson(const MapReader& map, const std::string& layer) {
       return Error{
           ErrorCode::corrupt,
           map.file().string() + ", layer " + layer + ", cell " + std::to_string(entry.cell),
-          tile.error().what, tile.error().mend};
+          tile.error().what, tile.error().hint};
     }
     tiles.push_back(std::move(*tile));
   }

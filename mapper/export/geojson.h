@@ -1,4 +1,4 @@
-// The content of a map as GeoJSON (RFC 7946), for other programs to draw and to compare.
+// Export of a map's content as GeoJSON (RFC 7946), for other programs.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace milepost {
 
-// The name that stands for the network of segments where a layer is named.
+// The layer name that selects the network of segments.
 inline constexpr const char* kSegments = "segments";
 
 struct GeoJson {
-  std::string text;  // a FeatureCollection, one feature a line; the same map gives the same text
+  std::string text;  // a FeatureCollection, one feature per line; deterministic
   std::size_t features = 0;
 };
 
 // Each segment's line in WGS84, [longitude_deg, latitude_deg, altitude_m], with the properties id,
-// length_m and successors. A line across longitude 180 is cut there into a MultiLineString (RFC
+// length_m and successors. A line across longitude 180 is split there into a MultiLineString (RFC
 // 7946, 3.1.9). Errors: those of MapReader; corrupt (a segment without a line).
 Result<GeoJson> segments_geojson(const MapReader& map);
 
 // Each wall of a layer once, from its begin to its end in WGS84, [longitude_deg, latitude_deg],
-// with the property sigma_m. Errors: not_found (no such layer; it names those there are),
+// with the property sigma_m. Errors: not_found (no such layer; lists the existing ones),
 // invalid_input (a layer of other items), corrupt (a tile), those of MapReader.
 Result<GeoJson> walls_geojson(const MapReader& map, const std::string& layer);
 

@@ -27,7 +27,7 @@ CameraPoseOf<Scalar> pose_from(const Scalar* block) {
   return {{block[0], block[1], block[2]}, block[3], block[4], block[5]};
 }
 
-// A point's image against the pixel where its feature was found.
+// Reprojection error: a point's image minus the observed pixel.
 struct ImageError {
   Eigen::Vector2d pixel;
   Pinhole camera;
@@ -36,16 +36,16 @@ struct ImageError {
   template <class Scalar>
   bool operator()(const Scalar* pose, const Scalar* point, Scalar* residual) const {
     const Eigen::Matrix<Scalar, 3, 1> enu_m(point[0], point[1], point[2]);
-    const Eigen::Matrix<Scalar, 3, 1> seen = seen_from(pose_from(pose), enu_m);
+    const Eigen::Matrix<Scalar, 3, 1> seen = point_in_camera(pose_from(pose), enu_m);
     if (seen.z() < Scalar(0.1)) return false;
-    const Eigen::Matrix<Scalar, 2, 1> image = camera.pixel_of(seen);
+    const Eigen::Matrix<Scalar, 2, 1> image = camera.project(seen);
     residual[0] = (image.x() - pixel.x()) / sigma_px;
     residual[1] = (image.y() - pixel.y()) / sigma_px;
     return true;
   }
 };
 
-// A pose against the recorded one.
+// Deviation of a pose from the recorded one.
 struct RecordError {
   PoseBlock recorded;
   AdjustmentSettings settings;
@@ -72,51 +72,52 @@ struct MountingError {
   }
 };
 
-struct PlacedTrack {
-  const PixelTrack* track;
+struct TriangulatedTrack {
+  const FeatureTrack* track;
   std::array<double, 3> enu_m;
 };
 
-// The tracks that fit the poses, the longest first, until every frame has its share.
-std::vector<PlacedTrack> tracks_that_fit(const std::vector<PixelTrack>& tracks,
-                                         const std::vector<CameraPose>& poses,
-                                         const Pinhole& camera, double max_rms_px,
-                                         std::size_t a_frame) {
+// The tracks that fit the poses, the longest first, until every frame has `a_frame` of them.
+std::vector<TriangulatedTrack> tracks_that_fit(const std::vector<FeatureTrack>& tracks,
+                                               const std::vector<CameraPose>& poses,
+                                               const Pinhole& camera, double max_rms_px,
+                                               std::size_t a_frame) {
   std::vector<std::size_t> order(tracks.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return tracks[a].size() > tracks[b].size();
   });
   std::vector<std::size_t> taken_of_frame(poses.size(), 0);
-  std::vector<PlacedTrack> taken;
+  std::vector<TriangulatedTrack> taken;
   for (const std::size_t i : order) {
-    const PixelTrack& track = tracks[i];
-    const bool wanted = std::any_of(track.begin(), track.end(), [&](const Sight& sight) {
-      return taken_of_frame[sight.frame] < a_frame;
-    });
+    const FeatureTrack& track = tracks[i];
+    const bool wanted =
+        std::any_of(track.begin(), track.end(), [&](const PixelObservation& observation) {
+          return taken_of_frame[observation.frame] < a_frame;
+        });
     if (!wanted) continue;
     const auto placed = triangulate(track, poses, camera, 1);
     if (!placed || placed->rms_px > max_rms_px) continue;
     if ((placed->enu_m - poses[track.front().frame].enu_m).norm() > kFarthestM) continue;
-    for (const Sight& sight : track) ++taken_of_frame[sight.frame];
+    for (const PixelObservation& observation : track) ++taken_of_frame[observation.frame];
     taken.push_back({&track, {placed->enu_m.x(), placed->enu_m.y(), placed->enu_m.z()}});
   }
   return taken;
 }
 
 void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorded,
-           std::size_t settled, std::vector<PlacedTrack>& tracks, const Pinhole& camera,
+           std::size_t final_frames, std::vector<TriangulatedTrack>& tracks, const Pinhole& camera,
            const AdjustmentSettings& settings) {
   ceres::Problem problem;
   double mounting_yaw = 0;
-  ceres::LossFunction* loss = new ceres::CauchyLoss(2);  // the problem's to delete, used once
+  ceres::LossFunction* loss = new ceres::CauchyLoss(2);  // owned by the problem once used
   bool loss_used = false;
   auto* ordering = new ceres::ParameterBlockOrdering;
-  for (PlacedTrack& track : tracks) {
-    for (const Sight& sight : *track.track) {
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ImageError, 2, 6, 3>(
-                                   new ImageError{sight.pixel, camera, settings.pixel_sigma_px}),
-                               loss, blocks[sight.frame].data(), track.enu_m.data());
+  for (TriangulatedTrack& track : tracks) {
+    for (const PixelObservation& observation : *track.track) {
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ImageError, 2, 6, 3>(new ImageError{
+                                   observation.pixel, camera, settings.pixel_sigma_px}),
+                               loss, blocks[observation.frame].data(), track.enu_m.data());
       loss_used = true;
     }
     ordering->AddElementToGroup(track.enu_m.data(), 0);
@@ -124,7 +125,7 @@ void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorde
   if (!loss_used) delete loss;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     problem.AddParameterBlock(blocks[i].data(), 6);
-    if (i < settled) {  // no record any more: its heading has the mounting in it
+    if (i < final_frames) {  // no prior: its final heading includes the mounting
       problem.SetParameterBlockConstant(blocks[i].data());
     } else {
       problem.AddResidualBlock(new ceres::AutoDiffCostFunction<RecordError, 6, 6, 1>(
@@ -151,19 +152,19 @@ void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorde
 
 }  // namespace
 
-void adjust_poses(std::vector<CameraPose>& poses, std::size_t settled,
-                  const std::vector<PixelTrack>& tracks, const Pinhole& camera,
+void adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
+                  const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
                   const AdjustmentSettings& settings) {
   std::vector<PoseBlock> recorded;
   recorded.reserve(poses.size());
   for (const CameraPose& pose : poses) recorded.push_back(block_from(pose));
   for (const double max_rms_px : {settings.max_first_rms_px, settings.max_rms_px}) {
-    std::vector<PlacedTrack> fitting =
+    std::vector<TriangulatedTrack> fitting =
         tracks_that_fit(tracks, poses, camera, max_rms_px, settings.tracks_a_frame);
     std::vector<PoseBlock> blocks;
     blocks.reserve(poses.size());
     for (const CameraPose& pose : poses) blocks.push_back(block_from(pose));
-    solve(blocks, recorded, settled, fitting, camera, settings);
+    solve(blocks, recorded, final_frames, fitting, camera, settings);
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_from(blocks[i].data());
   }
 }

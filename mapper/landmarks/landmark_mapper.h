@@ -1,4 +1,4 @@
-// From tracks and recorded poses to landmarks, window by window along the road.
+// Maps landmarks from feature tracks and recorded poses, by sliding-window bundle adjustment.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,14 @@ namespace milepost {
 
 struct LandmarkSettings {
   AdjustmentSettings adjustment;
-  std::size_t window_frames = 80;   // adjusted together, beside ...
-  std::size_t overlap_frames = 20;  // ... the settled ones before and the unsettled ones after
-  double max_rms_px = 2;            // of a landmark's pixels about its images: what moves is no
-                                    // landmark
-  double max_depth_sigma = 0.2;     // of a landmark's depth, as part of it
-  double max_distance_m = 300;      // farther landmarks say nothing of position
+  std::size_t window_frames = 80;   // adjusted together, in addition to ...
+  std::size_t overlap_frames = 20;  // ... final frames before and provisional ones after
+  double max_rms_px = 2;            // of a landmark's reprojection error, to reject moving objects
+  double max_depth_sigma = 0.2;     // of a landmark's depth, relative to it
+  double max_distance_m = 300;      // farther landmarks do not constrain the position
 };
 
-// A landmark before it is chosen and packed into a tile.
+// A landmark before selection and quantization.
 struct MappedLandmark {
   Descriptor descriptor{};  // mean over the observations
   GeoPoint position;
@@ -40,15 +39,15 @@ class LandmarkMapper {
  public:
   LandmarkMapper(const Camera& camera, const LandmarkSettings& settings);
 
-  // Takes in the next frame's recorded pose, at `along_m`, which is greater than the one before.
+  // Adds the next frame's recorded pose. REQUIRES: `along_m` is greater than the one before.
   void add_frame(const Frame& frame, double along_m);
-  // Takes in tracks that have ended, of the frames so far. Sights in frames that are kept no longer
-  // are left out.
+  // Adds tracks that have ended, of the frames so far. Observations in frames that are no longer
+  // kept are ignored.
   void add_tracks(const std::vector<Track>& tracks);
 
-  // The landmarks whose poses have settled since the last call. `finished` settles all.
+  // The landmarks whose poses have become final since the last call. `finished` finalizes all.
   std::vector<MappedLandmark> take_mapped(bool finished);
-  // No landmark that is taken later begins before. Infinity where no track waits.
+  // A lower bound of the begin of landmarks that are taken later. Infinity if no track waits.
   double oldest_waiting_along_m() const;
 
  private:
@@ -59,22 +58,22 @@ class LandmarkMapper {
     double pitch_rad = 0;
     double roll_rad = 0;
   };
-  struct WaitingTrack {
-    PixelTrack sights;  // frames count from the first that is kept
+  struct PendingTrack {
+    FeatureTrack observations;  // frame indices relative to the first kept frame
     std::vector<double> scales_px;
     Descriptor descriptor{};
     AlongRange along;
     bool mapped = false;
   };
 
-  void settle(std::size_t frames, std::size_t settled_after, std::vector<MappedLandmark>& mapped);
-  void forget_settled();
+  void finalize(std::size_t frames, std::size_t final_after, std::vector<MappedLandmark>& mapped);
+  void forget_final();
 
   Pinhole camera_;
   LandmarkSettings settings_;
-  std::vector<RecordedPose> frames_;  // those that are kept
-  std::size_t settled_ = 0;           // of frames_, whose poses are final
-  std::vector<WaitingTrack> tracks_;  // in the order they ended
+  std::vector<RecordedPose> frames_;  // kept frames
+  std::size_t final_ = 0;             // number of frames_ with final poses
+  std::vector<PendingTrack> tracks_;  // in the order of their ends
 };
 
 }  // namespace milepost

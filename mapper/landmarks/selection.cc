@@ -11,7 +11,7 @@
 namespace milepost {
 namespace {
 
-constexpr double kNearestM = 2;  // a landmark nearer than that says no more
+constexpr double kNearestM = 2;  // smaller distances do not add information
 
 }  // namespace
 
@@ -21,8 +21,8 @@ LandmarkSelector::Information LandmarkSelector::prior() const {
   return Eigen::Vector3d(position, position, heading).asDiagonal();
 }
 
-// Calls visit(place, row) for each place from which the landmark is seen: the bearing's
-// derivatives by along, lateral and heading, in units of a sighting's sigma.
+// Calls visit(place, row) for each place from which the landmark is visible; `row` is the bearing's
+// Jacobian by arc length, lateral offset and heading, divided by the bearing's sigma.
 template <class Visit>
 void LandmarkSelector::visit_sightings(const MappedLandmark& landmark, const RouteLine& line,
                                        Visit visit) const {
@@ -41,8 +41,8 @@ void LandmarkSelector::visit_sightings(const MappedLandmark& landmark, const Rou
         from_place.east_m * std::cos(heading_rad) - from_place.north_m * std::sin(heading_rad);
     const double distance_m = std::max(kNearestM, std::hypot(ahead_m, right_m));
     const double squared = distance_m * distance_m;
-    // Across the ray, what is not known of the landmark's depth hardly shows from the lane that it
-    // was mapped from; from the side it does.
+    // The landmark's depth error hardly affects its bearing from the lane that it was mapped from,
+    // but it does from a lateral offset.
     const double sigma_rad =
         std::hypot(settings_.bearing_sigma_rad,
                    landmark.depth_sigma_m / distance_m * settings_.position_sigma_m / distance_m);
@@ -71,8 +71,8 @@ void LandmarkSelector::add(const MappedLandmark& landmark, const RouteLine& line
 
 std::vector<std::size_t> LandmarkSelector::ranked(const std::vector<MappedLandmark>& landmarks,
                                                   const RouteLine& line) const {
-  // Gains only fall as others are chosen, so a gain that was computed since the last choice and is
-  // still the greatest is the greatest of all.
+  // Lazy greedy: gains only fall as others are chosen, so a gain that was computed since the last
+  // choice and is still the greatest is the greatest of all.
   struct Candidate {
     double gain;
     std::size_t index;

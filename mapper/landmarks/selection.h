@@ -1,5 +1,5 @@
-// Which landmarks earn their place in a map: those that say the most of a camera's pose along the
-// stretch where they are seen, evenly along the road.
+// Selection of landmarks for a map: those that add the most information on a camera's pose where
+// they are visible, evenly along the road.
 #pragma once
 
 #include <cstddef>
@@ -14,29 +14,28 @@
 namespace milepost {
 
 struct SelectionSettings {
-  double place_m = 2;                // distance of the places on the line where poses are weighed
-  double bearing_sigma_rad = 0.004;  // of one sighting
-  double position_sigma_m = 1;       // that a place has without any landmark ...
-  double heading_sigma_rad = 0.1;    // ... along and across, and of the heading
-  double half_repeated_at = 4;       // observations of a landmark that is seen again every second
-                                     // time
+  double place_m = 2;                // spacing of the evaluated places on the line
+  double bearing_sigma_rad = 0.004;  // of one observation
+  double position_sigma_m = 1;       // prior of a pose without any landmark: ...
+  double heading_sigma_rad = 0.1;    // ... arc length and lateral offset, and heading
+  double half_repeated_at = 4;       // observations for a probability of 1/2 to be seen again
 };
 
-// Greedy choice by the gain in log determinant of what a pose's covariance inverts to (the
-// D-optimal design), summed over the places. What was chosen counts for all later tiles. Not safe
-// to use from several threads.
+// Greedy selection by the gain in log determinant of the pose's information matrix (D-optimal
+// design), summed over the places. Chosen landmarks count for all later tiles. Not safe to use
+// from several threads.
 class LandmarkSelector {
  public:
   explicit LandmarkSelector(const SelectionSettings& settings) : settings_(settings) {}
 
-  // The indices of `landmarks` in the order of their worth, each after those before it.
+  // The indices of `landmarks` in greedy order: each by its gain given those before it.
   std::vector<std::size_t> ranked(const std::vector<MappedLandmark>& landmarks,
                                   const RouteLine& line) const;
-  // Takes one into the map.
+  // Adds one to the map.
   void choose(const MappedLandmark& landmark, const RouteLine& line);
 
  private:
-  // What is known of along, lateral and heading at a place.
+  // The information matrix of arc length, lateral offset and heading at a place.
   using Information = Eigen::Matrix3d;
   using Places = std::map<long, Information>;
 

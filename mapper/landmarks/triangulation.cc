@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "schema/geo/rays.h"
+#include "schema/geo/ray_triangulation.h"
 
 namespace milepost {
 namespace {
@@ -12,15 +12,15 @@ constexpr double kConvergedM = 1e-4;
 
 using Jacobian = Eigen::Matrix<double, 2, 3>;
 
-std::optional<Eigen::Vector3d> nearest_to_rays(const PixelTrack& track,
+std::optional<Eigen::Vector3d> nearest_to_rays(const FeatureTrack& track,
                                                const std::vector<CameraPose>& poses,
                                                const Pinhole& camera) {
   const Eigen::Vector3d centre = poses[track.front().frame].enu_m;
-  MeetingRays rays;
-  for (const Sight& sight : track) {
-    const CameraPose& pose = poses[sight.frame];
-    const Eigen::Vector3d ray =
-        camera_from_enu(pose).transpose() * camera.ray_of(sight.pixel.x(), sight.pixel.y());
+  RayTriangulation rays;
+  for (const PixelObservation& observation : track) {
+    const CameraPose& pose = poses[observation.frame];
+    const Eigen::Vector3d ray = camera_from_enu(pose).transpose() *
+                                camera.unproject(observation.pixel.x(), observation.pixel.y());
     rays.add(pose.enu_m - centre, ray.normalized());
   }
   const auto met = rays.point();
@@ -28,23 +28,23 @@ std::optional<Eigen::Vector3d> nearest_to_rays(const PixelTrack& track,
   return centre + met->point_m;
 }
 
-// Sums of a Gauss-Newton step.
+// The normal equations of a Gauss-Newton step.
 struct Normal {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double squares_px2 = 0;
 };
 
-std::optional<Normal> normal_at(const Eigen::Vector3d& enu_m, const PixelTrack& track,
+std::optional<Normal> normal_at(const Eigen::Vector3d& enu_m, const FeatureTrack& track,
                                 const std::vector<CameraPose>& poses, const Pinhole& camera) {
   Normal normal;
-  for (const Sight& sight : track) {
-    const CameraPose& pose = poses[sight.frame];
+  for (const PixelObservation& observation : track) {
+    const CameraPose& pose = poses[observation.frame];
     const Eigen::Matrix3d rotation = camera_from_enu(pose);
     const Eigen::Vector3d seen = rotation * (enu_m - pose.enu_m);
     if (!(seen.z() > kNearestSeenM)) return std::nullopt;
-    const Jacobian by_point = camera.pixel_by_point(seen) * rotation;
-    const Eigen::Vector2d residual = sight.pixel - camera.pixel_of(seen);
+    const Jacobian by_point = camera.projection_jacobian(seen) * rotation;
+    const Eigen::Vector2d residual = observation.pixel - camera.project(seen);
     normal.matrix += by_point.transpose() * by_point;
     normal.gradient += by_point.transpose() * residual;
     normal.squares_px2 += residual.squaredNorm();
@@ -54,15 +54,15 @@ std::optional<Normal> normal_at(const Eigen::Vector3d& enu_m, const PixelTrack& 
 
 }  // namespace
 
-std::optional<PlacedPoint> triangulate(const PixelTrack& track,
-                                       const std::vector<CameraPose>& poses, const Pinhole& camera,
-                                       double pixel_sigma_px) {
+std::optional<TriangulatedPoint> triangulate(const FeatureTrack& track,
+                                             const std::vector<CameraPose>& poses,
+                                             const Pinhole& camera, double pixel_sigma_px) {
   const auto start = nearest_to_rays(track, poses, camera);
   if (!start) return std::nullopt;
-  PlacedPoint placed;
+  TriangulatedPoint placed;
   placed.enu_m = *start;
   std::optional<Normal> normal = normal_at(placed.enu_m, track, poses, camera);
-  bool converged = false;  // towards no point where the rays are parallel
+  bool converged = false;  // false if the rays are parallel
   for (int i = 0; normal && !converged && i < kMaxIterations; ++i) {
     const Eigen::Vector3d step = normal->matrix.ldlt().solve(normal->gradient);
     placed.enu_m += step;

@@ -1,24 +1,24 @@
-// Places a landmark by its bearings from known poses.
+// Triangulates a landmark from its pixels and known poses.
 #pragma once
 
 #include <optional>
 
-#include "mapper/landmarks/pixel_track.h"
+#include "mapper/landmarks/feature_track.h"
 #include "schema/geo/pinhole.h"
 
 namespace milepost {
 
-struct PlacedPoint {
+struct TriangulatedPoint {
   Eigen::Vector3d enu_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-  double rms_px = 0;  // of its pixels about the images of the point
+  double rms_px = 0;  // reprojection error
 };
 
-// The point whose images are the nearest to the track's pixels, each pixel as uncertain as
-// `pixel_sigma_px`. Nothing if it does not lie before every camera or the rays are parallel.
-// REQUIRES: two sights or more.
-std::optional<PlacedPoint> triangulate(const PixelTrack& track,
-                                       const std::vector<CameraPose>& poses, const Pinhole& camera,
-                                       double pixel_sigma_px);
+// The point that minimizes the reprojection error of the track, whose pixels have the standard
+// deviation `pixel_sigma_px`. Nothing if it is not in front of every camera or the rays are
+// parallel. REQUIRES: two or more observations.
+std::optional<TriangulatedPoint> triangulate(const FeatureTrack& track,
+                                             const std::vector<CameraPose>& poses,
+                                             const Pinhole& camera, double pixel_sigma_px);
 
 }  // namespace milepost

@@ -9,8 +9,8 @@
 #include "mapper/pipeline/frame_pipeline.h"
 #include "mapper/pipeline/layer_builder.h"
 #include "mapper/pipeline/layers.h"
-#include "mapper/pipeline/sampled_codebook.h"
 #include "mapper/pipeline/segment_plan.h"
+#include "mapper/pipeline/trained_projection.h"
 #include "schema/store/map_store.h"
 
 namespace milepost {
@@ -23,22 +23,22 @@ struct NamedBuilder {
   std::unique_ptr<LayerBuilder> builder;
 };
 
-// Follows the features of one segment's frames through to its tiles.
+// Builds the tiles of one segment from its frames.
 class SegmentBuilder {
  public:
-  SegmentBuilder(const Drive& drive, const SegmentPlan& plan, const Codebook& codebook,
+  SegmentBuilder(const Drive& drive, const SegmentPlan& plan, const PcaProjection& codebook,
                  const BuildSettings& settings)
       : drive_(drive),
         plan_(plan),
         settings_(settings),
         context_{plan.id, drive.camera, plan.line, codebook, settings.tile_length_m},
-        follower_(settings.follow, drive.camera.width_px) {
+        tracker_(settings.follow, drive.camera.width_px) {
     for (const Layer& layer : layers_of(settings)) {
       layers_.push_back({layer.name, make_layer_builder(layer, context_)});
     }
   }
 
-  // Counts what it finds in the last of the report's drives.
+  // Adds its counts to the last of the report's drives.
   Status run(int jobs, MapWriter& map, BuildReport& report, BuildProgress& progress,
              const OnProgress& on_progress) {
     FramePipeline frames(drive_, plan_.frame_indices, settings_.feature, settings_.lab, jobs);
@@ -49,8 +49,8 @@ class SegmentBuilder {
       if (!frame) return frame.error();
       count(*frame, report.drives.back());
       for (const NamedBuilder& layer : layers_) layer.builder->add_frame(recorded, *frame, along_m);
-      const std::vector<Track> ended = follower_.add(frame->features, along_m);
-      const Status written = add_and_write(ended, follower_.oldest_open_along_m(), map, report);
+      const std::vector<Track> ended = tracker_.add(frame->features, along_m);
+      const Status written = add_and_write(ended, tracker_.oldest_open_along_m(), map, report);
       if (!written.ok()) return written;
       ++progress.frames_done;
       if (!on_progress(progress)) {
@@ -58,7 +58,7 @@ class SegmentBuilder {
                      "stopped on request, no map was written", ""};
       }
     }
-    return add_and_write(follower_.finish(), std::numeric_limits<double>::infinity(), map, report);
+    return add_and_write(tracker_.finish(), std::numeric_limits<double>::infinity(), map, report);
   }
 
  private:
@@ -93,7 +93,7 @@ class SegmentBuilder {
   const SegmentPlan& plan_;
   const BuildSettings& settings_;
   SegmentContext context_;
-  FeatureFollower follower_;
+  FeatureTracker tracker_;
   std::vector<NamedBuilder> layers_;
 };
 
@@ -110,9 +110,10 @@ Status check_names_differ(const std::vector<SegmentPlan>& plans) {
 Status check_cameras_agree(const std::vector<Drive>& drives) {
   for (const Drive& drive : drives) {
     if (drive.camera == drives.front().camera) continue;
-    return Error{ErrorCode::invalid_input, (drive.folder / "drive.json").string(),
-                 "its camera is not that of " + (drives.front().folder / "drive.json").string(),
-                 "build a map for each camera"};
+    return Error{
+        ErrorCode::invalid_input, (drive.folder / "drive.json").string(),
+        "its camera differs from that of " + (drives.front().folder / "drive.json").string(),
+        "build a map for each camera"};
   }
   return ok_status();
 }
@@ -121,7 +122,7 @@ Status check_cameras_agree(const std::vector<Drive>& drives) {
 
 Error nothing_found(const DriveReport& drive) {
   return {ErrorCode::invalid_input, drive.folder,
-          "there is nothing to localize by in its " + std::to_string(drive.frames) +
+          "nothing to localize with was found in its " + std::to_string(drive.frames) +
               " frames: features " + std::to_string(drive.features) + ", grey values " +
               std::to_string(drive.darkest) + " to " + std::to_string(drive.brightest) +
               " of 0 to 255, tracklets 0",
@@ -143,7 +144,7 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     if (!checked.ok()) return checked.error();
   }
 
-  const Result<Codebook> codebook = sampled_codebook(drives, plans, settings, jobs);
+  const Result<PcaProjection> codebook = sampled_codebook(drives, plans, settings, jobs);
   if (!codebook) return codebook.error();
   Result<MapWriter> map = MapWriter::create(map_file);
   if (!map) return map.error();

@@ -17,10 +17,10 @@ struct BuildProgress {
   std::size_t frames_total = 0;
 };
 
-// What was found in one drive.
+// Statistics of one drive.
 struct DriveReport {
   std::string folder;
-  std::size_t frames = 0;  // that were looked at
+  std::size_t frames = 0;  // that were processed
   std::size_t features = 0;
   std::size_t tracklets = 0;  // of the layer `tracklets`
   int darkest = 255;          // of the frames' grey values, 0 to 255
@@ -29,7 +29,7 @@ struct DriveReport {
 
 struct BuildReport {
   std::string build;
-  std::vector<DriveReport> drives;  // one a segment
+  std::vector<DriveReport> drives;  // one per segment
   std::size_t frames = 0;
   std::size_t tiles = 0;
   std::size_t tracklets = 0;         // of the layer `tracklets`
@@ -37,14 +37,14 @@ struct BuildReport {
   double length_m = 0;
 };
 
-// That no tracklet was found in the drive, and what else was.
+// The error for a drive without tracklets, with its statistics.
 Error nothing_found(const DriveReport& drive);
 
-// Makes `map_file` from the drives, each one segment named after its drive. The map's bytes depend
-// on drives and settings only. `on_progress` is called after each frame, from this thread; the
-// build ends with `cancelled` once it returns false. Until all is done, nothing appears at
-// `map_file`, and a map that was there stays. Errors: invalid_input, also for a drive without any
-// tracklet unless the settings allow it; io; cancelled.
+// Builds `map_file` from the drives; each becomes a segment with the name of the drive. The map's
+// bytes depend only on drives and settings. `on_progress` is called after each frame, from this
+// thread; the build ends with `cancelled` once it returns false. `map_file` is created or replaced
+// only after success. Errors: invalid_input, also for a drive without any tracklet unless the
+// settings allow it; io; cancelled.
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
                               int jobs,

@@ -39,7 +39,7 @@ struct FramePipeline::Impl {
         images(with_images),
         look_ahead(2 * static_cast<std::size_t>(count)) {}
 
-  // The position in `frame_indices` to work on, or nothing when there is no more work.
+  // The next index into `frame_indices` to process, or nothing if there is no more work.
   std::optional<std::size_t> start_one() {
     std::unique_lock lock(mutex);
     work_allowed.wait(lock, [this] {

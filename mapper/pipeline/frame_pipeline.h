@@ -1,4 +1,4 @@
-// Decodes frames and extracts their features on several threads, and hands them out in order.
+// Decodes frames and extracts their features on several threads; returns them in order.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@ struct ExtractedFrame {
   FeatureSet features;
   int darkest = 0;  // of the grey values, 0 to 255
   int brightest = 0;
-  ImageDescriptor image{};  // all 0 unless it was asked for
+  ImageDescriptor image{};  // all 0 unless requested
 };
 
-// Works a bounded number of frames ahead of the consumer, so memory does not grow with the drive.
-// next() is called from one thread; destruction stops the threads.
+// Processes a bounded number of frames ahead of the consumer, so memory does not grow with the
+// drive. next() is called from one thread; destruction stops the threads.
 class FramePipeline {
  public:
   // The features of `drive.frames[i]` for each i of `frame_indices`, and with `images` the whole
@@ -29,7 +29,7 @@ class FramePipeline {
   FramePipeline(const FramePipeline&) = delete;
   FramePipeline& operator=(const FramePipeline&) = delete;
 
-  // The next frame. REQUIRES: called at most once a frame index.
+  // The next frame. REQUIRES: called at most once per frame index.
   // Errors: those of FrameReader::gray.
   Result<ExtractedFrame> next();
 

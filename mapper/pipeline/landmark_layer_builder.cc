@@ -8,7 +8,7 @@
 namespace milepost {
 namespace {
 
-constexpr double kReachM = 320;  // what a tile's centimetres reach
+constexpr double kReachM = 320;  // limit of a tile's centimetre coordinates, with a margin
 
 bool within_reach(const EnuPoint& point) {
   return std::abs(point.east_m) < kReachM && std::abs(point.north_m) < kReachM &&
@@ -48,7 +48,7 @@ Result<std::vector<StoredTile>> LandmarkLayerBuilder::take_complete(double along
   return tiles;
 }
 
-// The tile of the most worthy landmarks that its stretch of road may weigh.
+// The tile of the best-ranked landmarks that fits the size target of its stretch of road.
 Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
                                                 const std::vector<MappedLandmark>& landmarks) {
   const double begin_m = index * context_.tile_length_m;
@@ -56,7 +56,7 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
   const double budget = settings_.size_target_kb_per_m * 1000 * stretch_m;
   const std::vector<std::size_t> ranked = selector_.ranked(landmarks, context_.line);
 
-  // The largest number of the ranked that fits.
+  // The largest number of ranked landmarks that fits.
   StoredTile best{index, {}, 0, {}};
   std::vector<std::size_t> best_chosen;
   std::size_t fits = 0;
@@ -65,7 +65,7 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
     const std::size_t count = (fits + too_many) / 2;
     std::vector<std::size_t> chosen(ranked.begin(),
                                     ranked.begin() + static_cast<std::ptrdiff_t>(count));
-    std::sort(chosen.begin(), chosen.end());  // back in the order of where they begin
+    std::sort(chosen.begin(), chosen.end());  // back in the order of their begins
     std::vector<MappedLandmark> taken;
     taken.reserve(chosen.size());
     for (const std::size_t i : chosen) taken.push_back(landmarks[i]);
@@ -76,7 +76,7 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
       continue;
     }
     fits = count;
-    if (tile.landmarks.empty()) continue;  // none within reach
+    if (tile.landmarks.empty()) continue;  // none in range
     best = {index, tile.along(), tile.landmarks.size(), std::move(frame)};
     best_chosen = std::move(chosen);
   }
@@ -87,7 +87,7 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
     return Error{ErrorCode::invalid_input, read.error().where, read.error().what,
                  "lower --tile-length-m or --max-features"};
   }
-  best.along = read->along();  // as it was rounded
+  best.along = read->along();  // as quantized
   return best;
 }
 

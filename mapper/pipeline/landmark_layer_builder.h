@@ -1,4 +1,4 @@
-// Makes the layer of the default method: landmarks, as many as the map may weigh.
+// Builds the layer of the default method: as many landmarks as the size target allows.
 #pragma once
 
 #include "mapper/landmarks/landmark_mapper.h"

@@ -7,8 +7,8 @@
 namespace milepost {
 namespace {
 
-// Encodes what an assembler completes. `encode` makes the frame of a tile's index and items, and
-// `decode` reads it: what a reader would refuse is not written.
+// Encodes the tiles that an assembler completes. `encode` encodes a tile's index and items, and
+// `decode` verifies the result: nothing is written that a reader would reject.
 template <class Item, class Encode, class Decode>
 Result<std::vector<StoredTile>> stored(TileAssembler<Item>& assembler, double along_m,
                                        const Encode& encode, const Decode& decode) {

@@ -1,4 +1,4 @@
-// Makes the tiles of one layer of one segment from what the mapper follows along it.
+// Builds the tiles of one layer of one segment from its frames and tracks.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
 #include "schema/drive/drive.h"
-#include "schema/feature/codebook.h"
+#include "schema/feature/pca_projection.h"
 #include "schema/geo/route_line.h"
 #include "schema/tile/observation.h"
 
 namespace milepost {
 
-// A tile as the map stores it.
+// An encoded tile with its index entry.
 struct StoredTile {
   std::uint32_t index = 0;
   AlongRange along;
@@ -30,23 +30,23 @@ class LayerBuilder {
  public:
   virtual ~LayerBuilder() = default;
 
-  // Takes in the next frame, taken at `along_m`, which is greater than that of the frame before.
+  // Adds the next frame. REQUIRES: `along_m` is greater than that of the frame before.
   virtual void add_frame(const Frame& /*recorded*/, const ExtractedFrame& /*frame*/,
                          double /*along_m*/) {}
-  // Takes in tracks that have ended.
+  // Adds tracks that have ended.
   virtual void add_tracks(const std::vector<Track>& /*tracks*/) {}
-  // The tiles that nothing beginning at `along_m` or later belongs to, ascending; each once.
-  // Infinity once all was added: then the rest of them.
+  // The tiles to which no item beginning at `along_m` or later belongs, ascending; each is returned
+  // once. Infinity, after all items were added, returns the rest.
   // Errors: invalid_input for a tile that holds more than the format allows.
   virtual Result<std::vector<StoredTile>> take_complete(double along_m) = 0;
 };
 
-// What all layers of one segment are made with. It outlives their builders.
+// Shared inputs of all layers of one segment. It outlives their builders.
 struct SegmentContext {
   std::string segment;
   Camera camera;
   const RouteLine& line;
-  const Codebook& codebook;
+  const PcaProjection& codebook;
   double tile_length_m = 0;
 };
 

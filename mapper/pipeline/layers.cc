@@ -18,8 +18,8 @@ std::vector<Layer> layers_of(const BuildSettings& settings) {
   return made;
 }
 
-LayerParameters parameters_of(const Layer& layer, const Camera& camera, const Codebook& codebook,
-                              double tile_length_m) {
+LayerParameters parameters_of(const Layer& layer, const Camera& camera,
+                              const PcaProjection& codebook, double tile_length_m) {
   LayerParameters parameters;
   parameters.items = layer.items;
   parameters.tile_length_m = tile_length_m;

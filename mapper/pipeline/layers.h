@@ -1,4 +1,4 @@
-// The layers that a build makes: the default method's and, for the laboratory, those of the others.
+// The layers of a build: that of the default method and, with --lab, those of the other methods.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 #include "mapper/pipeline/settings.h"
 #include "mapper/tracklets/regression.h"
 #include "schema/drive/drive.h"
-#include "schema/feature/codebook.h"
+#include "schema/feature/pca_projection.h"
 #include "schema/tile/layer_parameters.h"
 
 namespace milepost {
 
 struct FrameParts {
-  bool features = false;  // all of each frame
+  bool features = false;  // all features of each frame
   bool image = false;     // the descriptor of the whole image
 };
 
@@ -25,14 +25,14 @@ struct Layer {
   LandmarkLayerSettings landmarks;
 };
 
-// `tracklets`, which serves the default method by landmarks, and with settings.lab:
-// `tracklets-inverse-scale`, the regression on -1/scale; `tracklets-scale`, on scale as the paper
-// publishes it; `observations`, every observation of the same tracklets; `frames`, all features of
-// each frame; `wisurf`, a descriptor of each whole frame.
+// `tracklets`, the landmarks of the default method, and with settings.lab:
+// `tracklets-inverse-scale`, the regression on -1/scale; `tracklets-scale`, on scale as in the
+// paper; `observations`, every observation of the same tracklets; `frames`, all features of each
+// frame; `wisurf`, a whole-image descriptor of each frame.
 std::vector<Layer> layers_of(const BuildSettings& settings);
 
-// What the map says of the layer.
-LayerParameters parameters_of(const Layer& layer, const Camera& camera, const Codebook& codebook,
-                              double tile_length_m);
+// The parameters of the layer that the map stores.
+LayerParameters parameters_of(const Layer& layer, const Camera& camera,
+                              const PcaProjection& codebook, double tile_length_m);
 
 }  // namespace milepost

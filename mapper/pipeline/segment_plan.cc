@@ -20,7 +20,7 @@ Result<SegmentPlan> plan_segment(const Drive& drive, double min_spacing_m) {
   const std::string place = (drive.folder / "drive.json").string();
   if (!is_segment_id(drive.name)) {
     return Error{ErrorCode::invalid_input, place,
-                 "the name '" + drive.name + "' cannot name a segment",
+                 "the name '" + drive.name + "' is not a valid segment id",
                  "use 1 to 64 letters, digits, '.', '_' or '-'"};
   }
   std::vector<std::size_t> frame_indices = spaced_frames(drive, min_spacing_m);

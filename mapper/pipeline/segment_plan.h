@@ -1,4 +1,4 @@
-// Which frames of a drive become a segment, and the segment's line.
+// Selects the frames of a drive that form a segment, and the segment's line.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ namespace milepost {
 
 struct SegmentPlan {
   std::string id;                          // the drive's name
-  std::vector<std::size_t> frame_indices;  // one a vertex of the line
+  std::vector<std::size_t> frame_indices;  // one per vertex of the line
   RouteLine line;
 };
 
-// Frames closer than `min_spacing_m` to the last one taken are passed over: a halted vehicle says
-// nothing about scale against position. Errors: invalid_input (a name that is no segment id, or a
-// drive that does not move).
+// Frames closer than `min_spacing_m` to the last selected one are skipped: the frames of a stopped
+// vehicle carry no information on scale against position. Errors: invalid_input (a name that is not
+// a segment id, or a drive that does not move).
 Result<SegmentPlan> plan_segment(const Drive& drive, double min_spacing_m);
 
 StoredSegment stored_segment(const SegmentPlan& plan);

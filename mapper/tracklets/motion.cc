@@ -6,7 +6,7 @@
 namespace milepost {
 namespace {
 
-constexpr double kMaxGrowth = 1.5;  // of depth's inverse between two frames, against noisy scales
+constexpr double kMaxGrowth = 1.5;  // of inverse depth between two frames, against noisy scales
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Predicts where a followed feature appears next.
+// Predicts the next position of a tracked feature.
 #pragma once
 
 #include "schema/tile/observation.h"
@@ -11,9 +11,9 @@ struct PredictedPosition {
   float motion_px = 0;  // length of the predicted motion from the latest observation
 };
 
-// Continues the motion between the track's last two observations to `along_m`. Under straight
-// motion towards a fixed point the image motion grows as the inverse of depth, and depth shrinks as
-// scale grows. REQUIRES: two observations or more.
+// Extrapolates the motion between the track's last two observations to `along_m`. Under straight
+// motion towards a fixed point the image motion grows as the inverse of depth, and depth is
+// inversely proportional to scale. REQUIRES: two or more observations.
 PredictedPosition predict_position(const Track& track, double along_m);
 
 }  // namespace milepost

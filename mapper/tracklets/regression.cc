@@ -14,8 +14,8 @@ struct LineFit {
   double ss_tot = 0;      // Eq. 13
 };
 
-// Ordinary least squares of l on [1 f(s)], Eq. 2, solved about the means so that alongs of many
-// kilometres do not cost digits.
+// Ordinary least squares of l on [1 f(s)], Eq. 2, solved about the means so that arc lengths of
+// many kilometres do not lose digits.
 LineFit fit_line(const Eigen::VectorXd& f, const Eigen::VectorXd& l) {
   const double f_mean = f.mean();
   const double l_mean = l.mean();
@@ -43,7 +43,7 @@ std::optional<Tracklet> tracklet_from_track(const Track& track,
   const LineFit fit = fit_line(f, l);
   const double r_squared = 1 - fit.ss_res / fit.ss_tot;  // Eq. 14
   const bool usable = r_squared >= settings.min_r_squared && fit.theta[1] > 0;
-  if (!usable) return std::nullopt;  // so are the NaN of a track without way or growth
+  if (!usable) return std::nullopt;  // NaN, of a track without motion or growth, is unusable too
 
   Tracklet tracklet;
   tracklet.offset_m = fit.theta[0];

@@ -1,4 +1,4 @@
-// Gathers a layer's items into tiles and lets go of each tile as soon as it is complete.
+// Groups a layer's items into tiles and releases each tile as soon as it is complete.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace milepost {
 
-// The stretch of road that an item is good for; it lies in the tile where the stretch begins.
+// The range of an item on the road; it is stored in the tile in which the range begins.
 inline AlongRange along_of(const Tracklet& tracklet) { return tracklet.along; }
 inline AlongRange along_of(const ObservedTracklet& observed) { return observed.tracklet.along; }
 inline AlongRange along_of(const MappedLandmark& landmark) { return landmark.along; }
@@ -26,8 +26,8 @@ class TileAssembler {
  public:
   struct Tile {
     std::uint32_t index = 0;
-    AlongRange along;         // holds every item's
-    std::vector<Item> items;  // by where they begin; those that begin together, as they were added
+    AlongRange along;         // contains every item's
+    std::vector<Item> items;  // by begin; those with equal begin, as they were added
   };
 
   explicit TileAssembler(double tile_length_m) : tile_length_m_(tile_length_m) {}
@@ -37,7 +37,8 @@ class TileAssembler {
     tiles_[index].push_back(std::move(item));
   }
 
-  // The tiles that no item beginning at `along_m` or later belongs to, ascending; each once.
+  // The tiles to which no item beginning at `along_m` or later belongs, ascending; each is returned
+  // once.
   std::vector<Tile> take_complete(double along_m) {
     std::vector<Tile> complete;
     while (!tiles_.empty() && (tiles_.begin()->first + 1) * tile_length_m_ <= along_m) {

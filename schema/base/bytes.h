@@ -1,4 +1,4 @@
-// Bytes in memory, and digests of them.
+// Byte buffers, and their conversion from and to text.
 #pragma once
 
 #include <cstddef>

@@ -7,12 +7,11 @@
 
 namespace milepost {
 
-// A box of latitude and longitude, WGS84. Where west_deg is more than east_deg, it goes across
-// longitude 180.
+// A box of latitude and longitude, WGS84. It crosses longitude 180 if west_deg > east_deg.
 struct Bounds {
   double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
 
-  // South is not more than north, all are numbers of degrees on the Earth.
+  // Whether all values are valid degrees and south_deg <= north_deg.
   bool is_valid() const {
     const auto within = [](double degrees, double limit) { return std::abs(degrees) <= limit; };
     return within(west_deg, 180) && within(east_deg, 180) && within(south_deg, 90) &&
@@ -20,7 +19,7 @@ struct Bounds {
   }
   bool crosses_180() const { return west_deg > east_deg; }
 
-  // Borders included. Longitudes are compared as numbers: 180 is not -180.
+  // Whether the closed boxes intersect. Longitudes are compared as numbers: 180 differs from -180.
   bool meets(const Bounds& other) const {
     return south_deg <= other.north_deg && other.south_deg <= north_deg && longitudes_meet(other);
   }
@@ -32,11 +31,11 @@ struct Bounds {
 
  private:
   bool longitudes_meet(const Bounds& other) const {
-    const bool begins_in_time = west_deg <= other.east_deg;
-    const bool ends_late_enough = other.west_deg <= east_deg;
+    const bool starts_before_end = west_deg <= other.east_deg;
+    const bool ends_after_start = other.west_deg <= east_deg;
     if (crosses_180() && other.crosses_180()) return true;
-    if (crosses_180() || other.crosses_180()) return begins_in_time || ends_late_enough;
-    return begins_in_time && ends_late_enough;
+    if (crosses_180() || other.crosses_180()) return starts_before_end || ends_after_start;
+    return starts_before_end && ends_after_start;
   }
 };
 
@@ -61,7 +60,7 @@ struct GridCell {
       const double from_zero = std::floor(degrees * kCellsPerDegree);
       const std::uint32_t middle = count / 2;
       const auto below = std::min(static_cast<std::uint32_t>(from_zero + middle), count - 1);
-      // The product of a border and the cells of a degree may be rounded to below the border.
+      // The product of a border and kCellsPerDegree may be rounded to below the border.
       return below + 1 < count && border_deg(below + 1, count) <= degrees ? below + 1 : below;
     };
     return {index(latitude_deg, kCellRows), index(longitude_deg, kCellColumns)};
@@ -73,14 +72,14 @@ struct GridCell {
   }
 
  private:
-  // Rounded once, so that a border is the same number however it is reached.
+  // Rounded once, so that both cells at a border compute the same number.
   static double border_deg(std::uint32_t index, std::uint32_t count) {
     const std::uint32_t middle = count / 2;
     return (double{1} * index - middle) / kCellsPerDegree;
   }
 };
 
-// Whether `number` is a cell's.
+// Whether `number` is a valid cell number.
 inline bool is_cell(std::uint32_t number) { return number < kCellRows * kCellColumns; }
 
 }  // namespace milepost

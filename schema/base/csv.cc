@@ -24,7 +24,7 @@ std::string joined(const std::vector<std::string>& cells) {
   return text;
 }
 
-// Takes the first line off `text`, without its line end (of either kind).
+// Removes the first line from `text` and returns it without its line end (LF or CRLF).
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);
@@ -48,11 +48,11 @@ Result<CsvTable> CsvTable::read(const std::filesystem::path& path,
   const std::vector<std::string> header = split(take_line(text));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i >= header.size() || header[i] != columns[i]) {
-      const std::string found = i < header.size() ? "'" + header[i] + "'" : "nothing";
-      return Error{ErrorCode::invalid_input, path.string() + ", line 1",
-                   "column " + std::to_string(i + 1) + " is " + found + " where '" + columns[i] +
-                       "' belongs",
-                   "let the header start with " + joined(columns)};
+      const std::string found = i < header.size() ? "'" + header[i] + "'" : "missing";
+      return Error{
+          ErrorCode::invalid_input, path.string() + ", line 1",
+          "column " + std::to_string(i + 1) + " is " + found + ", expected '" + columns[i] + "'",
+          "start the header with " + joined(columns)};
     }
   }
   for (std::size_t line = 2; !text.empty(); ++line) {

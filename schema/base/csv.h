@@ -1,4 +1,4 @@
-// Tables of comma separated values without quoting, as drives and fixes use them.
+// CSV tables without quoting, the format of drives and fixes.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace milepost {
 
-// A table held in memory. Rows are counted as an editor counts lines: the header is line 1.
+// A table in memory. Lines are numbered as in an editor: the header is line 1.
 class CsvTable {
  public:
   // Reads a file whose header starts with `columns`, in that order; further columns are ignored.

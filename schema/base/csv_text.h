@@ -1,4 +1,4 @@
-// A table of comma separated values in the making, as CsvTable reads it.
+// Writes CSV text that CsvTable reads.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace milepost {
 
 class CsvText {
  public:
-  // REQUIRES: `header` is the names of the columns, with commas between them.
+  // REQUIRES: `header` holds the column names, separated by commas.
   explicit CsvText(std::string_view header) : text_(header) { text_ += '\n'; }
 
   // The next cell of a row. REQUIRES: no comma, quote or end of line in `text`.
@@ -26,7 +26,7 @@ class CsvText {
   CsvText& rounded(double value, int decimals) {
     return cell(std::string_view(fixed(value, decimals)));
   }
-  // What is not known is an empty cell.
+  // An empty cell if there is no value.
   CsvText& rounded(const std::optional<double>& value, int decimals) {
     return value ? rounded(*value, decimals) : cell(std::string_view());
   }

@@ -1,5 +1,6 @@
 // BLAKE2b digests of 16 bytes, written as 32 lower-case hexadecimal digits.
-// They name tiles and builds: they find damage and tell versions apart, and carry no authority.
+// They identify tiles and builds, to detect damage and to distinguish versions; they do not
+// authenticate.
 #pragma once
 
 #include <array>
@@ -11,14 +12,13 @@
 
 namespace milepost {
 
-// The digest of `bytes`, as hexadecimal digits.
 std::string digest_of(ByteView bytes);
 
 // Whether `text` has the form of a digest.
 bool is_digest(std::string_view text);
 
-// Digests a sequence of fields. Each field is preceded by its length, so that no two different
-// sequences of fields feed the same bytes.
+// Digests a sequence of fields. Each field is preceded by its length, so that different sequences
+// of fields never hash the same bytes.
 class FieldDigest {
  public:
   FieldDigest();
@@ -26,7 +26,7 @@ class FieldDigest {
   void add(std::string_view field) { add(as_bytes(field)); }
   void add(std::uint64_t number);  // as 8 bytes, little endian
   void add(double number);         // as its IEEE 754 bits, 8 bytes, little endian
-  std::string finish();            // once
+  std::string finish();            // call once
 
  private:
   alignas(64) std::array<unsigned char, 384> state_;

@@ -1,4 +1,4 @@
-// Numbers as text, the same in every locale.
+// Locale-independent formatting of numbers.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::string digits(Number value, How... how) {
 
 }  // namespace internal
 
-// The shortest text that reads back as the same number: 0.1, 1e+20.
+// The shortest text that parses to the same number: 0.1, 1e+20.
 template <std::floating_point Number>
 std::string shortest(Number value) {
   return internal::digits(value);
@@ -33,7 +33,7 @@ std::string shortest_fixed(Number value) {
   return internal::digits(value, std::chars_format::fixed);
 }
 
-// Rounded to so many decimals, 20 at most: 0.10.
+// Rounded to `decimals` decimal places, at most 20: 0.10.
 inline std::string fixed(double value, int decimals) {
   return internal::digits(value, std::chars_format::fixed, std::min(decimals, 20));
 }

@@ -45,9 +45,9 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// Where a path leads through symbolic links, also to a file that is not there yet.
+// The final target of a path through symbolic links; it need not exist.
 fs::path followed(fs::path path) {
-  constexpr int kMostLinks = 40;  // as the kernel
+  constexpr int kMostLinks = 40;  // the Linux kernel's limit
   std::error_code error;
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
     const fs::path target = fs::read_symlink(path, error);
@@ -57,8 +57,8 @@ fs::path followed(fs::path path) {
   return path;
 }
 
-// Whether the file is written in place: a pipe or a device, or a file without a name of its own,
-// such as standard output by /dev/stdout.
+// Whether the file is written in place: a pipe, a device, or a file that cannot be reached by its
+// own path, such as standard output as /dev/stdout.
 bool is_written_in_place(const fs::path& path) {
   std::error_code ignored;
   const fs::file_type type = fs::status(path, ignored).type();

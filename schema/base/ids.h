@@ -1,4 +1,4 @@
-// Ids that go into URLs and file names.
+// Ids that are used in URLs and file names.
 #pragma once
 
 #include <algorithm>

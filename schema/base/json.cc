@@ -14,8 +14,8 @@ Error too_large(const std::string& what) {
   return {ErrorCode::corrupt, "", "it " + what, "give a smaller document"};
 }
 
-// The parser's explanation without the library's own error number, on one line. It quotes what it
-// read last, which may be no text.
+// The parser's explanation without the library's own error number, on one line. It quotes the last
+// token, which may hold any bytes.
 std::string reason_of(const nlohmann::json::exception& error) {
   std::string text = error.what();
   const std::size_t end = text.find("] ");
@@ -27,8 +27,8 @@ std::string reason_of(const nlohmann::json::exception& error) {
   return text;
 }
 
-// Builds the value from the parser's events (nlohmann's SAX interface), and ends the parsing at the
-// first limit. The parser itself does not recurse.
+// Builds the value from the parser's events (nlohmann's SAX interface), and stops parsing at the
+// first exceeded limit. The parser itself does not recurse.
 template <class Json>
 class BoundedBuilder : public nlohmann::json_sax<Json> {
  public:
@@ -76,7 +76,7 @@ class BoundedBuilder : public nlohmann::json_sax<Json> {
   }
 
  private:
-  // Puts a value where the text has it. Null beyond the limit.
+  // Inserts a value at the current position. Null if the limit is exceeded.
   Json* add(Json value) {
     if (++values_ > limits_.values) {
       error_ = too_large("holds more than " + std::to_string(limits_.values) + " values");
@@ -104,7 +104,7 @@ class BoundedBuilder : public nlohmann::json_sax<Json> {
 
   const JsonLimits& limits_;
   Json root_;
-  std::vector<Json*> open_;  // from the root to where the next value goes
+  std::vector<Json*> open_;  // the open containers, from the root inwards
   std::string member_;       // the name of the next value in an object
   std::size_t values_ = 0;
   std::optional<Error> error_;

@@ -11,19 +11,19 @@ namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-Error refused(const Output& output, const std::string& what, const std::string& mend) {
-  return {ErrorCode::invalid_input, output.file.string(), what, mend};
+Error refused(const Output& output, const std::string& what, const std::string& hint) {
+  return {ErrorCode::invalid_input, output.file.string(), what, hint};
 }
 
 std::string other_file(const Output& output) {
   return std::string("give another ") + output.named + " with " + output.option;
 }
 
-// Whether two paths lead to one file, which need not be there yet.
+// Whether two paths refer to the same file, which need not exist.
 bool are_same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
-  if (a.filename() != b.filename()) return false;  // spares most paths the walk through folders
+  if (a.filename() != b.filename()) return false;  // avoids file system access for most paths
   const fs::path real_a = fs::weakly_canonical(a, error);
   return !error && real_a == fs::weakly_canonical(b, error) && !error;
 }
@@ -42,18 +42,18 @@ Status check_is_no_input(const Output& output, const std::vector<fs::path>& inpu
   return ok_status();
 }
 
-// Whether a file can be made in the folder of the output.
+// Whether a file can be created in the folder of the output.
 Status check_folder(const Output& output) {
   const fs::path parent = output.file.parent_path();
   const fs::path folder = parent.empty() ? fs::path(".") : parent;
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
     return Error{ErrorCode::io, output.file.string(), "there is no folder " + folder.string(),
-                 "make it, or " + other_file(output)};
+                 "create it, or " + other_file(output)};
   }
   if (::access(folder.c_str(), W_OK | X_OK) == 0) return ok_status();
   return Error{ErrorCode::io, output.file.string(),
-               "no file can be made in " + folder.string() + " (" +
+               "no file can be created in " + folder.string() + " (" +
                    std::generic_category().message(errno) + ")",
                other_file(output)};
 }
@@ -71,13 +71,13 @@ Status check_kind(const Output& output) {
   const std::optional<std::string> head = head_of(output.file);
   if (!head) {
     return Error{ErrorCode::io, output.file.string(),
-                 "the file that is there cannot be read, so it is not replaced",
+                 "the existing file cannot be read, so it is not replaced",
                  other_file(output) + ", or remove this one first"};
   }
   if (head->empty() || output.kind->begins_with(*head)) return ok_status();
   return refused(
       output,
-      std::string("the file that is there is not ") + output.kind->name + ", so it is not replaced",
+      std::string("the existing file is not ") + output.kind->name + ", so it is not replaced",
       other_file(output) + ", or remove this one first");
 }
 

@@ -1,4 +1,4 @@
-// A closed range of along positions on one segment.
+// A closed interval of arc length (`along_m`) on one segment.
 #pragma once
 
 #include <algorithm>

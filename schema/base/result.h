@@ -9,25 +9,25 @@
 namespace milepost {
 
 enum class ErrorCode {
-  invalid_input,  // the caller or a file of the user is wrong; trying again does not help
+  invalid_input,  // the caller or a file of the user is wrong; a retry does not help
   not_found,      // the named thing does not exist
   gone,           // it existed in an older build of the map
-  corrupt,        // stored or received bytes break FORMAT.md
-  io,             // the disk or the operating system refused
-  unavailable,    // the server cannot be reached or is busy; trying again later may help
+  corrupt,        // stored or received bytes violate FORMAT.md
+  io,             // the file system or the operating system failed
+  unavailable,    // the server cannot be reached or is busy; a later retry may succeed
   cancelled,      // stopped on request
 };
 
-// One failure, told in one line: "WHERE: WHAT; MEND".
+// One failure, reported in one line: "WHERE: WHAT; HINT".
 struct Error {
   ErrorCode code = ErrorCode::invalid_input;
-  std::string where;  // file and the place in it, or URL
+  std::string where;  // file and the location in it, or URL
   std::string what;   // what is wrong there
-  std::string mend;   // what the user can do about it; may be empty
+  std::string hint;   // what the user can do about it; may be empty
 
   std::string line() const {
     std::string text = where.empty() ? what : where + ": " + what;
-    if (!mend.empty()) text += "; " + mend;
+    if (!hint.empty()) text += "; " + hint;
     return text;
   }
 };

@@ -6,10 +6,19 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <memory>
+#include <sstream>
 
 #include "schema/command/version.h"
 
 namespace milepost {
+
+std::string name_of(const CLI::App& app) {
+  const CLI::App* program = app.get_parent();
+  return program == nullptr ? app.get_name() : program->get_name() + " " + app.get_name();
+}
+
 namespace {
 
 volatile std::sig_atomic_t stop_signals = 0;
@@ -19,17 +28,51 @@ void note_stop(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-std::string program_help(const std::string& program, const std::string& description,
-                         const std::vector<Command>& commands) {
-  std::string text = description + "\n\nUsage: " + program + " COMMAND [OPTIONS]\n\nCommands:\n";
-  std::size_t width = 0;
-  for (const Command& command : commands) width = std::max(width, command.name.size());
-  for (const Command& command : commands) {
-    text += "  " + command.name + std::string(width + 2 - command.name.size(), ' ') +
-            command.summary + "\n";
+constexpr const char* kConfig = "--config";
+constexpr const char* kConfigText =
+    "Read options from FILE: one 'option = value' per line, '#' comments";
+
+// Lists each subcommand by the first line of its description.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    column_width(34);
+    label("SUBCOMMAND", "COMMAND");
   }
-  return text + "\n'" + program + " COMMAND --help' tells all about one of them; '" + program +
-         " --version' the version.\n";
+
+ private:
+  std::string make_subcommand(const CLI::App* sub) const override {
+    constexpr std::size_t kNameWidth = 14;
+    const std::string description = sub->get_description();
+    std::ostringstream line;
+    CLI::detail::format_help(line, sub->get_name(), description.substr(0, description.find('\n')),
+                             kNameWidth);
+    return line.str();
+  }
+};
+
+// Applies a file of `option = value` lines to the subcommand that was called.
+class SubcommandConfig : public CLI::ConfigTOML {
+ public:
+  explicit SubcommandConfig(const CLI::App& program) : program_(program) {}
+
+  std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+    std::vector<CLI::ConfigItem> settings = CLI::ConfigTOML::from_config(input);
+    for (const CLI::App* called : program_.get_subcommands()) {
+      for (CLI::ConfigItem& setting : settings)
+        setting.parents.insert(setting.parents.begin(), called->get_name());
+    }
+    return settings;
+  }
+
+ private:
+  const CLI::App& program_;
+};
+
+void set_up(CLI::App& app) {
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  app.set_version_flag("--version", name_of(app) + " " + kVersion);
 }
 
 std::string in_one_line(const Error& error) {
@@ -38,54 +81,67 @@ std::string in_one_line(const Error& error) {
   return line;
 }
 
-int wrong_call(const std::string& program, const std::string& what) {
-  std::cerr << program << ": " << what << "; see '" << program << " --help'\n";
+std::string what_is_wrong(const CLI::App& called, const CLI::ParseError& error) {
+  if (called.get_require_subcommand_min() > 0) {
+    const std::vector<std::string> arguments = called.remaining();
+    return arguments.empty() ? "a command is missing"
+                             : "'" + arguments.front() + "' is not a command";
+  }
+  std::string what = error.what();
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  return what;
+}
+
+int wrong_call(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> subcommands = app.get_subcommands();
+  const CLI::App& called = subcommands.empty() ? app : *subcommands.front();
+  std::cerr << name_of(called) << ": " << what_is_wrong(called, error) << "; see '"
+            << name_of(called) << " --help'\n";
   return kExitWrongCall;
+}
+
+std::optional<int> parsed(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return wrong_call(app, error);
+  }
 }
 
 }  // namespace
 
-int run_program(const std::string& program, const std::string& description,
-                const std::vector<Command>& commands, int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty()) return wrong_call(program, "a command is missing");
-  if (words[0] == "--help" || words[0] == "-h") {
-    std::cout << program_help(program, description, commands);
-    return kExitDone;
-  }
-  if (words[0] == "--version") {
-    std::cout << program << " " << kVersion << "\n";
-    return kExitDone;
-  }
-  const auto command = std::find_if(commands.begin(), commands.end(),
-                                    [&](const Command& c) { return c.name == words[0]; });
-  if (command == commands.end()) return wrong_call(program, "'" + words[0] + "' is no command");
-  return command->run(program + " " + command->name, {words.begin() + 1, words.end()});
+std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+  set_up(app);
+  app.set_config(kConfig, "", kConfigText)->check(CLI::ExistingFile)->option_text("FILE");
+  return parsed(app, argc, argv);
 }
 
-std::optional<int> parse_words(CLI::App& app, std::vector<std::string> words) {
-  app.set_config("--config", "",
-                 "Read options from FILE: one 'option = value' a line, '#' comments")
-      ->check(CLI::ExistingFile)
-      ->option_text("FILE");
-  app.allow_config_extras(CLI::config_extras_mode::error);
-  app.set_version_flag("--version", app.get_name() + " " + kVersion);
-  app.get_formatter()->column_width(34);
-  std::reverse(words.begin(), words.end());  // as CLI11 takes them
-  try {
-    app.parse(std::move(words));
-    return std::nullopt;
-  } catch (const CLI::CallForHelp&) {
-    std::cout << app.help();
-    return kExitDone;
-  } catch (const CLI::CallForVersion&) {
-    std::cout << app.version() << "\n";
-    return kExitDone;
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    return wrong_call(app.get_name(), what);
+int run_program(const std::string& program, const std::string& description,
+                const std::vector<Command>& commands, int argc, const char* const* argv) {
+  CLI::App app(description, program);
+  set_up(app);
+  app.require_subcommand(1);
+  app.footer("'" + program + " COMMAND --help' describes a command and its options.");
+  CLI::Option* config = app.set_config(kConfig)->group("");
+  app.config_formatter(std::make_shared<SubcommandConfig>(app));
+  std::map<const CLI::App*, RunCommand> runs;
+  for (const Command& command : commands) {
+    CLI::App* sub = app.add_subcommand(command.name)->group("Commands");
+    set_up(*sub);
+    // CLI11 reads the configuration file of a program, not of a subcommand: it is passed on.
+    const auto pass_on = [config](const std::string& file) { config->add_result(file); };
+    sub->add_option_function<std::string>(kConfig, pass_on, kConfigText)
+        ->trigger_on_parse()
+        ->check(CLI::ExistingFile)
+        ->option_text("FILE")
+        ->configurable(false);
+    runs[sub] = command.add(*sub);
   }
+  if (const auto code = parsed(app, argc, argv)) return *code;
+  return runs.at(app.get_subcommands().front())();
 }
 
 int fail(const std::string& program, const Error& error) {

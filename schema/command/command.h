@@ -1,5 +1,5 @@
-// What every milepost command does alike: words on the command line, exit codes, errors in one
-// line, progress on a terminal, a clean stop on Ctrl-C.
+// What all milepost commands share: command line arguments, exit codes, errors in one line,
+// progress on a terminal, a clean stop on Ctrl-C.
 #pragma once
 
 #include <concepts>
@@ -19,20 +19,32 @@ namespace milepost {
 
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitFailed = 1;     // one line on standard error says why
-inline constexpr int kExitWrongCall = 2;  // so does it here
+inline constexpr int kExitWrongCall = 2;  // likewise
 
-// A subcommand: `milepost-mapper build`. run() gets the words that follow its name.
+// Runs a parsed command and returns its exit code.
+using RunCommand = std::function<int()>;
+
+// A subcommand: `milepost-mapper build`. add() gives `app` its options and its description, the
+// first line of which is its summary in the help of the program.
 struct Command {
   std::string name;
-  std::string summary;
-  std::function<int(const std::string& program, std::vector<std::string> words)> run;
+  std::function<RunCommand(CLI::App& app)> add;
 };
 
-// Chooses the subcommand by the first word and runs it; answers --help and --version itself.
+// Parses the command line and runs the subcommand that it names. Handles --help, --version and, for
+// every subcommand, --config FILE with one `option = value` per line, where an unknown key is an
+// error.
 int run_program(const std::string& program, const std::string& description,
-                const std::vector<Command>& commands, int argc, char** argv);
+                const std::vector<Command>& commands, int argc, const char* const* argv);
 
-// A number as people write it, as short as its type allows: 1000000, 0.04.
+// Parses the command line of a program. Returns the exit code if the program ends here: after
+// --help or --version, or after an error, which is printed.
+std::optional<int> parse_command_line(CLI::App& app, int argc, const char* const* argv);
+
+// "milepost-mapper build", for messages.
+std::string name_of(const CLI::App& app);
+
+// The shortest decimal text that parses to the same number, without an exponent: 1000000, 0.04.
 template <class Number>
 std::string in_digits(Number number) {
   if constexpr (std::integral<Number>) {
@@ -42,9 +54,9 @@ std::string in_digits(Number number) {
   }
 }
 
-// Adds an option for one number from `low` to `high`. Its help says so, with the default that
-// `value` holds: "--jobs N    Threads that extract features (1 to 256, default 2)".
-// `unit` stands for the number: N, M, PX.
+// Adds an option for one number from `low` to `high`. Its help shows the range and `value`, the
+// default: "--jobs N    Threads that extract features (1 to 256, default 2)". `unit` is the
+// placeholder of the number: N, M, PX.
 template <class Number>
 CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value,
                         const std::string& unit, const std::string& text,
@@ -57,25 +69,21 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value,
       ->option_text(unit);
 }
 
-// Parses `words` by `app`; the option --config (a file with one option a line, as key = value) is
-// added, in which an unknown key is an error. Returns the exit code if the command is to end here.
-std::optional<int> parse_words(CLI::App& app, std::vector<std::string> words);
-
 // Prints "PROGRAM: LINE" on standard error and returns kExitFailed.
 int fail(const std::string& program, const Error& error);
 
 // Prints "PROGRAM: warning: LINE" on standard error.
 void warn(const std::string& program, const Error& error);
 
-// Where a command says what it wrote: on standard output, or on standard error where `output`, the
-// file that it wrote, is standard output itself.
+// The stream for a command's report on what it wrote: standard output, or standard error if
+// `output`, the file that it wrote, is standard output itself.
 std::ostream& report_stream(const std::string& output);
 
-// From now on SIGINT and SIGTERM set a flag instead of ending the program; a second one ends it.
+// Installs handlers: SIGINT and SIGTERM set a flag; a second signal ends the program.
 void catch_stop_signals();
 bool stop_requested();
 
-// A line that is rewritten in place on a terminal, and nothing at all elsewhere.
+// A progress line, rewritten in place on a terminal; no output elsewhere.
 class ProgressLine {
  public:
   ProgressLine();

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kMaxImageSidePx = 20000;
 
-Error invalid(std::string where, std::string what, std::string mend) {
-  return {ErrorCode::invalid_input, std::move(where), std::move(what), std::move(mend)};
+Error invalid(std::string where, std::string what, std::string hint) {
+  return {ErrorCode::invalid_input, std::move(where), std::move(what), std::move(hint)};
 }
 
 Status check_side(int side_px, const char* key, const std::string& where) {
@@ -32,10 +32,10 @@ Status check_time(double timestamp_s, const double* previous_s, const RowPlaces&
   return invalid(rows.place(row),
                  "timestamp_s " + shortest(timestamp_s) + " is not later than " +
                      shortest(*previous_s) + " on line " + std::to_string(rows.lines[row - 1]),
-                 "put the rows in the order of time, one a moment");
+                 "sort the rows by time, without repeated times");
 }
 
-// The first row of `readings` whose time is wrong, or ok.
+// The error of the first row of `readings` with an invalid time, or ok.
 template <class Reading>
 Status check_times(const std::vector<Reading>& readings, const RowPlaces& rows) {
   for (std::size_t row = 0; row < readings.size(); ++row) {
@@ -46,7 +46,7 @@ Status check_times(const std::vector<Reading>& readings, const RowPlaces& rows) 
   return ok_status();
 }
 
-// A plain name of a file inside a folder, in a table without quoting.
+// Whether `name` is a file name without path that an unquoted table can hold.
 bool is_plain_filename(std::string_view name) {
   return !name.empty() && name != "." && name != ".." &&
          name.find_first_of(std::string_view("/\\,\r\n\0", 6)) == std::string_view::npos;
@@ -62,10 +62,10 @@ Status check_filenames(const std::vector<Frame>& frames, const RowPlaces& rows) 
     }
     const auto [first, is_new] = row_of.emplace(name, row);
     if (!is_new) {
-      return invalid(rows.place(row),
-                     "filename '" + name + "' stands already on line " +
-                         std::to_string(rows.lines[first->second]),
-                     "give each frame an image of its own");
+      return invalid(
+          rows.place(row),
+          "filename '" + name + "' is already on line " + std::to_string(rows.lines[first->second]),
+          "give each frame an image of its own");
     }
   }
   return ok_status();
@@ -99,7 +99,7 @@ Status check_jump(const std::vector<Frame>& frames, const RowPlaces& rows, std::
                  "the position jumps " + fixed(distance_m, 1) + " m from line " +
                      std::to_string(rows.lines[row - 1]) + " in " + fixed(elapsed_s, 3) +
                      " s: " + fixed(speed_mps, 1) + " m/s, faster than " + fixed(kMaxSpeedMps, 0),
-                 "correct the positions or the times, or cut the drive in two there");
+                 "correct the positions or the times, or split the drive there");
 }
 
 }  // namespace

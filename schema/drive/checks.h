@@ -1,4 +1,4 @@
-// What makes a drive valid, checked in one place for the reader and the writer.
+// Validity checks of a drive, shared by the reader and the writer.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace milepost {
 
-// The lines of a file that a sequence of rows stands on, for messages.
+// The line number of each row in its file, for messages.
 struct RowPlaces {
   std::string file;
-  std::vector<std::size_t> lines;  // one a row
+  std::vector<std::size_t> lines;  // one per row
 
   std::string place(std::size_t row) const { return file + ", line " + std::to_string(lines[row]); }
 };
 
-// Each check names the file (`where`, or the row's place), what is wrong and the mend.
+// Errors name the file (`where`, or the row's location), what is wrong and a hint.
 // Errors: invalid_input.
 Status check_camera(const Camera& camera, const std::string& where);
 Status check_images_folder(const std::string& images, const std::string& where);
-// REQUIRES: `rows` has one line a frame (a reading).
+// REQUIRES: `rows` has one line per frame (per reading).
 Status check_frames(const std::vector<Frame>& frames, const RowPlaces& rows);
 Status check_gps(const std::vector<GpsFix>& gps, const RowPlaces& rows);
 Status check_odometry(const std::vector<Odometry>& odometry, const RowPlaces& rows);

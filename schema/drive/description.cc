@@ -24,7 +24,7 @@ std::string message_of(const Json::exception& error) {
   return end == std::string::npos ? text : text.substr(end + 2);
 }
 
-// Takes values out of drive.json by key and keeps the first error; later reads give defaults.
+// Reads values of drive.json by key and keeps the first error; later reads return defaults.
 class KeyReader {
  public:
   explicit KeyReader(std::string file) : file_(std::move(file)) {}
@@ -80,7 +80,7 @@ class KeyReader {
   const Json& member(const Json& parent, const std::string& key, const std::string& type,
                      TypeTest is_type, const std::string& prefix = "") {
     static const Json nothing;
-    if (!parent.is_object()) return nothing;  // was reported where it was read
+    if (!parent.is_object()) return nothing;  // already reported
     const auto found = parent.find(key);
     if (found == parent.end()) {
       fail(prefix + key, "is missing");
@@ -135,7 +135,7 @@ Result<Json> parse(const fs::path& file) {
   if (!root) {
     const Error& error = root.error();
     const std::string place = error.where.empty() ? "" : ", " + error.where;
-    return Error{ErrorCode::invalid_input, file.string() + place, error.what, error.mend};
+    return Error{ErrorCode::invalid_input, file.string() + place, error.what, error.hint};
   }
   if (root->is_object()) return root;
   return Error{ErrorCode::invalid_input, file.string(), "is not a JSON object",

@@ -1,4 +1,4 @@
-// drive.json: what a drive says about itself, apart from its tables.
+// drive.json: the metadata of a drive.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@ namespace milepost {
 inline constexpr const char* kDescriptionFile = "drive.json";
 
 // Reads and checks `folder`/drive.json into a drive without frames. Unknown keys are ignored.
-// Errors: not_found, io; invalid_input that names the place in the JSON or the key.
+// Errors: not_found, io; invalid_input that names the location in the JSON or the key.
 Result<Drive> read_description(const std::filesystem::path& folder);
 
-// Reads and checks the camera alone of a drive.json, of any name; other keys may be missing.
+// Reads and checks only the camera of a drive.json file of any name; other keys may be missing.
 // Errors: those of read_description.
 Result<Camera> read_camera(const std::filesystem::path& file);
 

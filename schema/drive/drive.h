@@ -48,20 +48,20 @@ struct Drive {
   }
 };
 
-// Faster than this between two rows, a position is taken for a jump of the recorder.
+// A higher speed between two rows is reported as a position jump.
 inline constexpr double kMaxSpeedMps = 70.0;
 
 // Reads and checks a drive folder; the frames' images must exist but are not opened.
-// Errors (each names file, line and mend): a missing file, another header, a number that is not
+// Errors (each names file, line and hint): a missing file, a wrong header, a number that is not
 // finite or out of range, time that does not increase, a position jump, no frame at all.
 Result<Drive> read_drive(const std::filesystem::path& folder);
 
-// Every file that the drive consists of: its description, its tables, which need not all be there,
-// and the images of its frames.
+// Every file of the drive: its description, its tables, which need not all exist, and the images
+// of its frames.
 std::vector<std::filesystem::path> files_of(const Drive& drive);
 
 // Writes drive.json, trajectory.csv and, where there are readings, gps.csv and odometry.csv into
-// `folder`, which is made if need be; frames are the caller's. Errors: io, invalid_input.
+// `folder`, which is created if missing; the caller writes the images. Errors: io, invalid_input.
 Status write_drive(const Drive& drive, const std::filesystem::path& folder);
 
 }  // namespace milepost

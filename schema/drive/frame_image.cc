@@ -43,7 +43,7 @@ Result<cv::Mat> whole_image(const std::string& image, int grey_bits) {
       decoded_image(std::move(*bytes), cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
   if (!gray) {
     const Error& error = gray.error();
-    return Error{error.code, "", "image " + image + " " + error.what, error.mend};
+    return Error{error.code, "", "image " + image + " " + error.what, error.hint};
   }
   if (gray->type() == CV_8UC1) return gray;
   if (gray->type() == CV_16UC1) return in_8_bits(*gray, grey_bits);
@@ -70,7 +70,7 @@ Result<cv::Mat> FrameReader::gray(std::size_t frame_index) const {
   const std::string image = drive_.frame_path(drive_.frames[frame_index]).string();
   const auto at_place = [&](Error error, const std::string& other_mend) {
     error.where = place;
-    error.mend += other_mend;
+    error.hint += other_mend;
     return error;
   };
   Result<cv::Mat> gray = whole_image(image, grey_bits_);

@@ -14,15 +14,15 @@ namespace milepost {
 // Reads the frames of one drive as 8-bit grey. Immutable, so safe to share between threads.
 class FrameReader {
  public:
-  // Looks at some frames to learn how many bits the drive's grey values have (grey_bits_of): all
-  // frames of a drive are brought to 8 bits alike. REQUIRES: `drive` outlives the reader.
+  // Samples some frames for the bit depth of the drive's grey values (grey_bits_of), by which all
+  // frames are scaled to 8 bits. REQUIRES: `drive` outlives the reader.
   explicit FrameReader(const Drive& drive);
 
   // The frame's image as 8-bit grey, one channel, of the camera's size. An EXIF orientation is
   // applied first: the drive's camera describes the upright image.
   // REQUIRES: frame_index < drive.frames.size().
   // Errors (each names the line of trajectory.csv and the image): not_found, io; invalid_input for
-  // an image that is cut short, damaged, cannot be decoded, has other values than whole numbers of
+  // an image that is truncated, damaged, cannot be decoded, has other values than whole numbers of
   // up to 16 bits, or another size than the camera's.
   Result<cv::Mat> gray(std::size_t frame_index) const;
 

@@ -19,7 +19,7 @@ namespace milepost {
 namespace {
 
 constexpr std::size_t kMostSampled = 16;
-constexpr int kDepths[] = {8, 10, 12, 14, 16};  // of cameras' converters
+constexpr int kDepths[] = {8, 10, 12, 14, 16};  // of cameras' A/D converters
 
 std::uint32_t number_in(std::string_view bytes, bool little_endian) {
   std::uint32_t value = 0;
@@ -89,7 +89,7 @@ std::optional<int> bits_declared_by_tiff(std::string_view tiff) {
   return 0;
 }
 
-// What the image says of itself: none where its values have 8 bits, 0 where it says nothing.
+// The bit depth that the image declares: none for values of 8 bits, 0 if it declares nothing.
 std::optional<int> declared_bits(std::string_view image) {
   if (image.starts_with(kJpegStart)) return std::nullopt;
   if (image.starts_with(kPngSignature)) return bits_declared_by_png(image);
@@ -103,7 +103,7 @@ std::optional<int> declared_bits(std::string_view image) {
   return 0;
 }
 
-// The bits that one image needs: 0 where it says nothing.
+// The bit depth that one image requires: 0 if it cannot be told.
 int bits_of(const std::filesystem::path& file) {
   Result<std::string> bytes = read_text_file(file);
   if (!bytes) return 0;
@@ -114,7 +114,7 @@ int bits_of(const std::filesystem::path& file) {
   if (!gray || gray->type() != CV_16UC1) return 0;
   double greatest = 0;
   cv::minMaxLoc(*gray, nullptr, &greatest);
-  // All 16 bits are declared by whoever does not know better, too.
+  // Writers that do not know the depth also declare 16 bits.
   return std::max(*declared < 16 ? *declared : 0,
                   static_cast<int>(std::bit_width(static_cast<unsigned>(greatest))));
 }

@@ -1,4 +1,4 @@
-// Which grey values of a recording are white: 16-bit images often hold values of fewer bits.
+// The bit depth of a recording's grey values: 16-bit images often hold values of fewer bits.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,10 @@
 
 namespace milepost {
 
-// How many bits the grey values of a recording's images have: 8, 10, 12, 14 or 16. As many as the
-// images declare, if that is less than 16 (PNG's sBIT, the greatest value in the header of a PGM or
-// PPM or in a TIFF's MaxSampleValue), and as their greatest value needs; both of up to 16 images,
-// evenly spread and always the same ones. Images of 8 bits say nothing, and those that cannot be
-// read neither.
+// The bit depth of a recording's grey values: 8, 10, 12, 14 or 16. It is the least that covers the
+// depth which the images declare, if that is below 16 (PNG's sBIT, the greatest value in the header
+// of a PGM or PPM or in a TIFF's MaxSampleValue), and their greatest value; both over up to 16
+// images, evenly spread and always the same ones. Images of 8 bits and unreadable ones are ignored.
 int grey_bits_of(const std::vector<std::filesystem::path>& images);
 
 // The 8 most significant of `bits` bits of each value; greater values become 255.

@@ -1,5 +1,5 @@
-// Whether an encoded image is whole, judged by its data and not by its end marker. Decoders fill in
-// what is missing, or write on standard error by themselves; a drive's reader wants neither.
+// Checks that an encoded image is complete, by its data and not by its end marker. Decoders fill in
+// missing data or write to standard error; a drive's reader wants neither.
 #pragma once
 
 #include <string>
@@ -8,21 +8,21 @@
 
 namespace milepost {
 
-// The bytes of an image whose pixels can all be decoded, without a warning of the decoder: those
-// given or, where a flaw costs no pixel (no end marker, padding before it, a damaged remark), the
-// same pixels without the flaw. Bytes after the image's end do not matter. Any other format than
-// JPEG and PNG is given back as it is: its decoder has to tell. Safe from several threads.
+// Returns bytes of the image of which the decoder decodes all pixels without a warning: those given
+// or, where a defect affects no pixel (no end marker, padding before it, damaged metadata), the
+// same pixels without the defect. Bytes after the image's end are ignored. Formats other than JPEG
+// and PNG are returned unchanged: their decoder reports errors. Safe from several threads.
 // Errors (`what` begins with a verb, `where` is left to the caller): invalid_input for an image
-// that is cut short, damaged or cannot be decoded.
+// that is truncated, damaged or cannot be decoded.
 Result<std::string> sound_image(std::string bytes);
 
-// The same for one format. REQUIRES: `bytes` begin as this format does.
+// The same for one format. REQUIRES: `bytes` begin with the signature of this format.
 Result<std::string> sound_jpeg(std::string bytes);
 Result<std::string> sound_png(std::string bytes);
 
-// What sound_image says of the images that it does not take.
+// The errors of sound_image.
 inline Error cut_short() {
-  return {ErrorCode::invalid_input, "", "is cut short", "copy the image again"};
+  return {ErrorCode::invalid_input, "", "is truncated", "copy the image again"};
 }
 inline Error damaged() {
   return {ErrorCode::invalid_input, "", "is damaged", "copy the image again"};

@@ -14,8 +14,8 @@ namespace {
 
 thread_local bool is_decoding = false;
 
-// Stands before the buffer of std::cerr, on which OpenCV says by itself what it could not decode:
-// keeps that to itself and passes on what other threads write meanwhile. Holds nothing.
+// Filters std::cerr, on which OpenCV prints decoding errors: discards those and passes on the
+// output of other threads. Unbuffered.
 class WithoutDecoders : public std::streambuf {
  public:
   explicit WithoutDecoders(std::streambuf* to) : to_(to) {}
@@ -39,7 +39,7 @@ class WithoutDecoders : public std::streambuf {
 class Silence {
  public:
   Silence() {
-    // For as long as the program runs: std::cerr is written to until its very end.
+    // Never destroyed: std::cerr is used until the program ends.
     static const auto* const installed = [] {
       auto* buffer = new WithoutDecoders(std::cerr.rdbuf());
       std::cerr.rdbuf(buffer);

@@ -1,4 +1,4 @@
-// The one place where images of users are decoded.
+// The only place where images of users are decoded.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace milepost {
 
-// Decodes the bytes of an image file, `flags` being those of cv::imdecode. Nothing is written on
-// standard error, whatever the bytes are. Safe from several threads.
+// Decodes the bytes of an image file, `flags` being those of cv::imdecode. Nothing is written to
+// standard error for any input. Safe from several threads.
 // Errors (`what` begins with a verb, `where` is left to the caller): those of sound_image.
 Result<cv::Mat> decoded_image(std::string bytes, int flags);
 

@@ -1,12 +1,12 @@
-// JPEG (ITU T.81): whether every coefficient of the image is there. The coefficients are read by
-// the library that decodes them later, whose warnings say what it would have made up.
+// JPEG (ITU T.81): checks that every coefficient of the image is present. They are read by the
+// library that decodes them later; its warnings report missing data that it would fill in.
 #include <csetjmp>
 #include <cstdlib>
 #include <memory>
 
 #include "schema/drive/image_bytes.h"
 
-// jpeglib.h needs what comes before it, and jerror.h needs jpeglib.h.
+// jpeglib.h requires the headers before it, and jerror.h requires jpeglib.h.
 // clang-format off
 #include <cstddef>
 #include <cstdio>
@@ -17,33 +17,33 @@
 namespace milepost {
 namespace {
 
-// Before the end marker, cameras pad. More than this was coded data that did not fit its image.
+// Cameras pad before the end marker. More bytes than this are coded data beyond the image's.
 constexpr int kMostPadding = 16;
 constexpr int kEndOfImage = 0xd9;
 constexpr int kExif = JPEG_APP0 + 1;
 constexpr unsigned kLongestMarker = 0xffff;
 
-enum class Verdict { whole, flawed, cut_short, damaged, not_decodable };
+enum class JpegVerdict { whole, flawed, cut_short, damaged, not_decodable };
 
-// What the library calls instead of writing on standard error and ending the program.
+// Handlers that the library calls instead of writing to standard error and ending the program.
 struct Complaints {
-  jpeg_error_mgr manager{};  // the library gives a pointer to it: it comes first
+  jpeg_error_mgr manager{};  // first: the library passes a pointer to it
   std::jmp_buf out{};
   bool ran_out = false;  // of bytes, before the end marker
   bool flawed = false;
-  Verdict verdict = Verdict::whole;  // where the reading was ended by it
+  JpegVerdict verdict = JpegVerdict::whole;  // if it ended the reading
 };
 
 Complaints& complaints_of(j_common_ptr codec) { return *reinterpret_cast<Complaints*>(codec->err); }
 
-[[noreturn]] void end_reading(Complaints& complaints, Verdict verdict) {
+[[noreturn]] void end_reading(Complaints& complaints, JpegVerdict verdict) {
   complaints.verdict = verdict;
-  std::longjmp(complaints.out, 1);  // NOLINT(cert-err52-cpp): through a library of C
+  std::longjmp(complaints.out, 1);  // NOLINT(cert-err52-cpp): through a C library
 }
 
 bool costs_no_pixel(const jpeg_error_mgr& manager) {
   switch (manager.msg_code) {
-    case JWRN_JPEG_EOF:  // what lacks then is asked for later
+    case JWRN_JPEG_EOF:  // missing data is checked for later
     case JWRN_ADOBE_XFORM:
     case JWRN_BOGUS_ICC:
     case JWRN_JFIF_MAJOR:
@@ -63,12 +63,12 @@ void note_message(j_common_ptr codec, int level) {
   if (complaints.manager.msg_code == JWRN_JPEG_EOF) complaints.ran_out = true;
   if (costs_no_pixel(complaints.manager)) return;
   const bool data_ended = complaints.ran_out || complaints.manager.msg_code == JWRN_HIT_MARKER;
-  end_reading(complaints, data_ended ? Verdict::cut_short : Verdict::damaged);
+  end_reading(complaints, data_ended ? JpegVerdict::cut_short : JpegVerdict::damaged);
 }
 
-void end_with_error(j_common_ptr codec) {
+void end_jpeg_with_error(j_common_ptr codec) {
   Complaints& complaints = complaints_of(codec);
-  end_reading(complaints, complaints.ran_out ? Verdict::cut_short : Verdict::not_decodable);
+  end_reading(complaints, complaints.ran_out ? JpegVerdict::cut_short : JpegVerdict::not_decodable);
 }
 
 void write_nothing(j_common_ptr /*codec*/) {}
@@ -76,12 +76,12 @@ void write_nothing(j_common_ptr /*codec*/) {}
 void listen(Complaints& complaints) {
   jpeg_std_error(&complaints.manager);
   complaints.manager.emit_message = note_message;
-  complaints.manager.error_exit = end_with_error;
+  complaints.manager.error_exit = end_jpeg_with_error;
   complaints.manager.output_message = write_nothing;
 }
 
-// Whether all that makes up the image was in its scans. An image without its end marker may lack
-// whole scans, of a component or of the finer bits of a progressive image.
+// Whether the scans contained the whole image. An image without its end marker may lack whole
+// scans, of a component or of the finer bits of a progressive image.
 bool has_all_scans(const jpeg_decompress_struct& image, bool ran_out) {
   for (int c = 0; c < image.num_components; ++c) {
     if (image.comp_info[c].quant_table == nullptr) return false;  // set by its first scan
@@ -93,7 +93,7 @@ bool has_all_scans(const jpeg_decompress_struct& image, bool ran_out) {
   return true;
 }
 
-// An image that is being read, and one that is being written with its coefficients.
+// A decompressor, and a compressor for a copy of its coefficients.
 struct Codecs {
   Complaints complaints;
   jpeg_decompress_struct image{};
@@ -115,8 +115,8 @@ struct Codecs {
   Codecs& operator=(const Codecs&) = delete;
 };
 
-// The coefficients of a whole image in a new file, with the EXIF that tells how the image is
-// turned.
+// Writes the coefficients of a whole image to a new file, with the EXIF data, which holds the
+// orientation.
 void write_copy(Codecs& codecs, jvirt_barray_ptr* coefficients) {
   jpeg_create_compress(&codecs.copy);
   jpeg_mem_dest(&codecs.copy, &codecs.written, &codecs.written_size);
@@ -129,9 +129,9 @@ void write_copy(Codecs& codecs, jvirt_barray_ptr* coefficients) {
   jpeg_finish_compress(&codecs.copy);
 }
 
-// Nothing here has a destructor: the library leaves by a jump.
-Verdict read_all(Codecs& codecs, const std::string& bytes) {
-  if (setjmp(codecs.complaints.out) != 0) {  // NOLINT(cert-err52-cpp): a library of C
+// No local has a destructor: the library leaves by longjmp.
+JpegVerdict read_jpeg(Codecs& codecs, const std::string& bytes) {
+  if (setjmp(codecs.complaints.out) != 0) {  // NOLINT(cert-err52-cpp): a C library
     return codecs.complaints.verdict;
   }
   jpeg_create_decompress(&codecs.image);
@@ -139,26 +139,26 @@ Verdict read_all(Codecs& codecs, const std::string& bytes) {
   jpeg_save_markers(&codecs.image, kExif, kLongestMarker);
   jpeg_read_header(&codecs.image, TRUE);
   jvirt_barray_ptr* coefficients = jpeg_read_coefficients(&codecs.image);
-  if (!has_all_scans(codecs.image, codecs.complaints.ran_out)) return Verdict::cut_short;
-  if (!codecs.complaints.flawed) return Verdict::whole;
+  if (!has_all_scans(codecs.image, codecs.complaints.ran_out)) return JpegVerdict::cut_short;
+  if (!codecs.complaints.flawed) return JpegVerdict::whole;
   write_copy(codecs, coefficients);
-  return Verdict::flawed;
+  return JpegVerdict::flawed;
 }
 
 }  // namespace
 
 Result<std::string> sound_jpeg(std::string bytes) {
   const auto codecs = std::make_unique<Codecs>();
-  switch (read_all(*codecs, bytes)) {
-    case Verdict::whole:
+  switch (read_jpeg(*codecs, bytes)) {
+    case JpegVerdict::whole:
       return bytes;
-    case Verdict::flawed:
+    case JpegVerdict::flawed:
       return std::string(reinterpret_cast<const char*>(codecs->written), codecs->written_size);
-    case Verdict::cut_short:
+    case JpegVerdict::cut_short:
       return cut_short();
-    case Verdict::damaged:
+    case JpegVerdict::damaged:
       return damaged();
-    case Verdict::not_decodable:
+    case JpegVerdict::not_decodable:
       break;
   }
   return not_decodable();

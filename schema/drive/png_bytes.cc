@@ -1,4 +1,4 @@
-// PNG (ISO 15948): whether every row of the image is there, read by the library that decodes it
+// PNG (ISO 15948): checks that every row of the image is present, with the library that decodes it
 // later.
 #include <png.h>
 
@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t kChunkFrame = 12;  // length, type and checksum around a chunk's data
 constexpr std::string_view kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
 
-// The chunks that pixels depend on, and the EXIF that tells how the image is turned.
+// The chunks that pixels depend on, and the EXIF data, which holds the orientation.
 constexpr std::string_view kKeptChunks[] = {"IHDR", "PLTE", "tRNS", "IDAT", "eXIf"};
 
-enum class Verdict { whole, flawed, cut_short, damaged };
+enum class PngVerdict { whole, flawed, cut_short, damaged };
 
 struct Reading {
   std::string_view rest;
@@ -38,7 +38,7 @@ Reading& reading_of(png_structp image) { return *static_cast<Reading*>(png_get_e
 
 void note_warning(png_structp image, png_const_charp /*text*/) { reading_of(image).flawed = true; }
 
-[[noreturn]] void end_with_error(png_structp image, png_const_charp /*text*/) {
+[[noreturn]] void end_png_with_error(png_structp image, png_const_charp /*text*/) {
   png_longjmp(image, 1);
 }
 
@@ -52,12 +52,12 @@ void take_bytes(png_structp image, png_bytep to, std::size_t count) {
   reading.rest.remove_prefix(count);
 }
 
-// Nothing here has a destructor: the library leaves by a jump.
-Verdict read_all(Reading& reading) {
+// No local has a destructor: the library leaves by longjmp.
+PngVerdict read_png(Reading& reading) {
   png_structp image = reading.image;
-  if (setjmp(png_jmpbuf(image)) != 0) {  // NOLINT(cert-err52-cpp): a library of C
-    if (reading.has_rows) return Verdict::flawed;
-    return reading.ran_out ? Verdict::cut_short : Verdict::damaged;
+  if (setjmp(png_jmpbuf(image)) != 0) {  // NOLINT(cert-err52-cpp): a C library
+    if (reading.has_rows) return PngVerdict::flawed;
+    return reading.ran_out ? PngVerdict::cut_short : PngVerdict::damaged;
   }
   png_read_info(image, reading.info);
   const int passes = png_set_interlace_handling(image);
@@ -69,7 +69,7 @@ Verdict read_all(Reading& reading) {
   }
   reading.has_rows = true;
   png_read_end(image, nullptr);
-  return reading.flawed ? Verdict::flawed : Verdict::whole;
+  return reading.flawed ? PngVerdict::flawed : PngVerdict::whole;
 }
 
 std::size_t big_endian(std::string_view bytes) {
@@ -78,8 +78,8 @@ std::size_t big_endian(std::string_view bytes) {
   return value;
 }
 
-// The image without the chunks that only remark on it, and with its end. Empty if its data is not
-// in whole chunks.
+// The image without metadata chunks, and with its end chunk. Empty if its data is not in complete
+// chunks.
 std::string cleaned(std::string_view png) {
   std::string clean(kPngSignature);
   std::string_view rest = png.substr(kPngSignature.size());
@@ -94,32 +94,32 @@ std::string cleaned(std::string_view png) {
   return clean.append(kEnd);
 }
 
-Verdict verdict_of(std::string_view png) {
+PngVerdict png_verdict_of(std::string_view png) {
   const auto reading = std::make_unique<Reading>();
   reading->rest = png;
-  reading->image =
-      png_create_read_struct(PNG_LIBPNG_VER_STRING, reading.get(), end_with_error, note_warning);
+  reading->image = png_create_read_struct(PNG_LIBPNG_VER_STRING, reading.get(), end_png_with_error,
+                                          note_warning);
   reading->info = png_create_info_struct(reading->image);
   png_set_read_fn(reading->image, nullptr, take_bytes);
-  return read_all(*reading);
+  return read_png(*reading);
 }
 
 }  // namespace
 
 Result<std::string> sound_png(std::string bytes) {
-  switch (verdict_of(bytes)) {
-    case Verdict::whole:
+  switch (png_verdict_of(bytes)) {
+    case PngVerdict::whole:
       return bytes;
-    case Verdict::flawed:
+    case PngVerdict::flawed:
       break;
-    case Verdict::cut_short:
+    case PngVerdict::cut_short:
       return cut_short();
-    case Verdict::damaged:
+    case PngVerdict::damaged:
       return damaged();
   }
   std::string clean = cleaned(bytes);
   if (clean.empty()) return cut_short();
-  if (verdict_of(clean) != Verdict::whole) return damaged();
+  if (png_verdict_of(clean) != PngVerdict::whole) return damaged();
   return clean;
 }
 

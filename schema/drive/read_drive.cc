@@ -11,7 +11,7 @@ namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-// A local frame is for one place; farther out the tangent plane has left the Earth.
+// Beyond this a local tangent plane deviates too far from the Earth's surface.
 constexpr double kMaxLocalM = 1e6;
 
 // The numbers of a row from `first_column` on. Errors: as CsvTable::number.
@@ -42,7 +42,7 @@ Result<GeoPoint> position_from_local(const LocalFrame& frame, const EnuPoint& en
   for (const double metres : {enu.east_m, enu.north_m, enu.up_m}) {
     if (std::abs(metres) > kMaxLocalM) {
       return Error{ErrorCode::invalid_input, place,
-                   "the position lies 1000 km or more off the origin",
+                   "the position lies 1000 km or more from the origin",
                    "give metres east, north and up of the origin in drive.json"};
     }
   }

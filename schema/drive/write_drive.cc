@@ -70,14 +70,14 @@ std::string odometry_text(const Drive& drive) {
   return csv.text();
 }
 
-// The lines that `count` rows will stand on, below the header.
+// The line numbers of `count` rows below the header.
 RowPlaces rows_to_write(const fs::path& file, std::size_t count) {
   RowPlaces rows{file.string(), std::vector<std::size_t>(count)};
   std::iota(rows.lines.begin(), rows.lines.end(), std::size_t{2});
   return rows;
 }
 
-// What read_drive would refuse is not written.
+// Nothing is written that read_drive would reject.
 Status check_drive(const Drive& drive, const fs::path& folder) {
   const std::string description = (folder / kDescriptionFile).string();
   if (drive.position_frame == PositionFrame::local && !(drive.origin && is_valid(*drive.origin))) {
@@ -98,7 +98,7 @@ Status check_drive(const Drive& drive, const fs::path& folder) {
   return status;
 }
 
-// Writes an optional table, or removes the one an earlier drive left in the folder.
+// Writes an optional table, or removes that of an earlier drive from the folder.
 Status write_optional(const fs::path& file, bool is_present, const std::string& text) {
   if (is_present) return write_text_file(file, text);
   std::error_code error;
@@ -117,7 +117,7 @@ Status write_drive(const Drive& drive, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    return Error{ErrorCode::io, folder.string(), "cannot be made (" + error.message() + ")",
+    return Error{ErrorCode::io, folder.string(), "cannot be created (" + error.message() + ")",
                  "check the path and the permissions"};
   }
   Status status = write_text_file(folder / kDescriptionFile, *description);

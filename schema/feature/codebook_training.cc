@@ -2,13 +2,13 @@
 
 #include <Eigen/Dense>
 
-#include "schema/feature/codebook.h"
+#include "schema/feature/pca_projection.h"
 #include "schema/feature/root_sift.h"
 
 namespace milepost {
 namespace {
 
-// Of RootSIFT, whose length is 1: less is the rounding of the sums.
+// Of RootSIFT, which has length 1: a smaller variance is rounding error.
 constexpr double kLeastVariance = 1e-9;
 
 using Vector = Eigen::Matrix<double, kDescriptorBytes, 1>;
@@ -36,7 +36,7 @@ Matrix covariance_of(std::span<const Descriptor> descriptors, const Vector& mean
   return sum / std::max<double>(1, static_cast<double>(descriptors.size()));
 }
 
-// An eigenvector is one of two: the one whose component of largest magnitude is positive.
+// Fixes the sign of an eigenvector: its component of largest magnitude becomes positive.
 Vector with_sign(const Vector& axis) {
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
@@ -45,10 +45,10 @@ Vector with_sign(const Vector& axis) {
 
 }  // namespace
 
-Codebook Codebook::trained(std::span<const Descriptor> descriptors, double step) {
+PcaProjection PcaProjection::trained(std::span<const Descriptor> descriptors, double step) {
   const Vector mean = mean_of(descriptors);
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance_of(descriptors, mean));
-  Codebook codebook;
+  PcaProjection codebook;
   codebook.step_ = step;
   for (int d = 0; d < kDescriptorBytes; ++d) {
     codebook.mean_[static_cast<std::size_t>(d)] =

@@ -13,7 +13,7 @@ using Descriptor = std::array<std::uint8_t, kDescriptorBytes>;
 
 inline constexpr int kImageDescriptorValues = 64;
 
-// SURF's 4 x 4 cells of 4 values, of length 1 (schema/feature/wisurf.h); all 0 of an even image.
+// SURF's 4 x 4 cells of 4 values, of length 1 (schema/feature/wisurf.h); all 0 of a uniform image.
 using ImageDescriptor = std::array<float, kImageDescriptorValues>;
 
 // Euclidean, in [0, 2].

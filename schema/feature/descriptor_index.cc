@@ -13,7 +13,7 @@ using Trees = cvflann::KDTreeIndex<Distance>;
 
 constexpr unsigned kSeed = 2017;
 
-// FLANN asks for mutable matrices and does not write to them.
+// FLANN takes mutable matrices but does not write to them.
 cvflann::Matrix<unsigned char> as_matrix(std::span<const Descriptor> descriptors) {
   auto* data = const_cast<unsigned char*>(descriptors.front().data());  // NOLINT
   return {data, descriptors.size(), static_cast<std::size_t>(kDescriptorBytes)};

@@ -16,10 +16,10 @@ struct Neighbour {
 
 struct IndexSettings {
   int trees = 2;    // randomized trees; more find better neighbours at a higher cost of building
-  int checks = 32;  // leaves visited a query
+  int checks = 32;  // leaves visited per query
 };
 
-// Holds a reference to the descriptors it was built over, which must outlive it.
+// Refers to the descriptors that it was built from, which must outlive it.
 // Immutable after construction; nearest() may be called from several threads. The trees are seeded,
 // so the same descriptors always give the same neighbours.
 class DescriptorIndex {

@@ -9,11 +9,11 @@
 namespace milepost {
 namespace {
 
-constexpr double kBrightPart = 0.99;      // of the pixels are no brighter than its brightness
+constexpr double kBrightPart = 0.99;      // quantile of the grey values: a frame's brightness
 constexpr double kBright = 150;           // brightness of frames in ordinary light
-constexpr double kLeastBrightness = 0.2;  // of that; noise is all that is left below
+constexpr double kLeastBrightness = 0.2;  // of kBright; darker frames are mostly noise
 
-// How bright a frame is, as part of ordinary light: [kLeastBrightness, 1].
+// Brightness of a frame relative to kBright: [kLeastBrightness, 1].
 double brightness_of(const cv::Mat& gray) {
   constexpr int kBins = 256;
   constexpr int kChannel = 0;
@@ -49,8 +49,7 @@ FeatureExtractor::FeatureExtractor(FeatureExtractor&&) noexcept = default;
 FeatureExtractor& FeatureExtractor::operator=(FeatureExtractor&&) noexcept = default;
 
 FeatureSet FeatureExtractor::extract(const cv::Mat& gray) {
-  // In little light all contrasts are small, but the descriptors, which are of length one, the
-  // same.
+  // In low light all contrasts are small; the descriptors, which have length 1, are unaffected.
   const FeatureParameters& parameters = impl_->parameters;
   const auto sift = cv::SIFT::create(parameters.max_features, parameters.octave_layers,
                                      parameters.contrast_threshold * brightness_of(gray),

@@ -9,7 +9,7 @@
 
 namespace milepost {
 
-// Not safe to use from several threads at once: one extractor a thread. The features of an image
+// Not safe to use from several threads at once: one extractor per thread. The features of an image
 // depend on the image and the parameters only, not on threads.
 class FeatureExtractor {
  public:

@@ -1,4 +1,4 @@
-// Finds the features of a frame in an area.
+// Spatial index of the features of a frame.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace milepost {
 
-// The features of one frame by cells of the image. Holds no reference to them.
+// The features of one frame by image cell. Holds no reference to them.
 class FeatureGrid {
  public:
   explicit FeatureGrid(const std::vector<Feature>& features);
-  // Calls visit(index) for every feature in a cell that meets the circle.
+  // Calls visit(index) for every feature in a cell that intersects the circle.
   template <class Visit>
   void visit_near(float x_px, float y_px, float radius_px, Visit visit) const {
     const int first_column = cell_of(x_px - radius_px, columns_);

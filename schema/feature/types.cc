@@ -8,15 +8,15 @@ namespace milepost {
 namespace {
 
 Error corrupt_parameters(const std::string& what) {
-  return {ErrorCode::corrupt, "feature parameters", what, "build the map anew"};
+  return {ErrorCode::corrupt, "feature parameters", what, "rebuild the map"};
 }
 
-// Takes a number within [low, high] out of `object`.
+// Extracts a number within [low, high] from `object`.
 template <class Number>
 Status take(nlohmann::json& object, const char* key, double low, double high, Number& value) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number()) {
-    return corrupt_parameters(std::string("'") + key + "' is missing or no number");
+    return corrupt_parameters(std::string("'") + key + "' is missing or not a number");
   }
   const double number = found->template get<double>();
   if (!(number >= low && number <= high)) {
@@ -39,7 +39,7 @@ nlohmann::ordered_json to_json(const FeatureParameters& parameters) {
 }
 
 Result<FeatureParameters> feature_parameters_from_json(const nlohmann::json& json) {
-  nlohmann::json object = json;  // what is taken is erased, so that what is left is unknown
+  nlohmann::json object = json;  // known keys are erased; those left are unknown
   if (!object.is_object()) return corrupt_parameters("they are not a JSON object");
   if (!object.contains("kind") || object["kind"] != "sift") {
     return corrupt_parameters("their kind is not 'sift'");

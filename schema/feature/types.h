@@ -12,8 +12,7 @@
 
 namespace milepost {
 
-// A keypoint in the pixels of its frame: x to the right, y down, from the centre of the top left
-// pixel.
+// A keypoint in pixels of its frame: x to the right, y down, from the centre of the top left pixel.
 struct Feature {
   float x_px = 0;
   float y_px = 0;
@@ -28,8 +27,8 @@ struct FeatureSet {
   std::size_t size() const { return features.size(); }
 };
 
-// Parameters of the extractor. Stored in the map, since descriptors and scales mean something only
-// to an extractor with the same ones: the client takes them from there.
+// Parameters of the extractor. The map stores them and the client uses them, since descriptors and
+// scales are comparable only between extractors with the same parameters.
 struct FeatureParameters {
   int max_features = 1000;  // strongest responses kept; 0 keeps all
   int octave_layers = 3;
@@ -40,7 +39,7 @@ struct FeatureParameters {
   friend bool operator==(const FeatureParameters&, const FeatureParameters&) = default;
 };
 
-// A JSON object with "kind": "sift" and one key a parameter; from_json rejects another kind, an
+// A JSON object with "kind": "sift" and one key per parameter; from_json rejects another kind, an
 // unknown or missing key, and values out of range. Errors: corrupt.
 nlohmann::ordered_json to_json(const FeatureParameters& parameters);
 Result<FeatureParameters> feature_parameters_from_json(const nlohmann::json& json);

@@ -1,4 +1,4 @@
-// Where a camera is and how it looks (FRAMES.md 4 and 7).
+// Camera poses (FRAMES.md 4 and 7).
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace milepost {
 
-// Six degrees of freedom of a vehicle's camera in a tangent frame. `Scalar` is double, or what a
-// solver differentiates with.
+// The pose of a vehicle's camera in a tangent frame, with six degrees of freedom. `Scalar` is
+// double, or the type of an automatic differentiation.
 template <class Scalar>
 struct CameraPoseOf {
   using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
@@ -18,7 +18,7 @@ struct CameraPoseOf {
   Vector3 enu_m = Vector3::Zero();
   Scalar heading_rad{0};  // clockwise from north
   Scalar pitch_rad{0};    // upwards
-  Scalar roll_rad{0};     // clockwise, as the driver sees it
+  Scalar roll_rad{0};     // clockwise, as seen by the driver
 };
 using CameraPose = CameraPoseOf<double>;
 
@@ -65,14 +65,14 @@ typename CameraPoseOf<Scalar>::Matrix3 camera_from_enu(const CameraPoseOf<Scalar
          level_camera_from_enu(pose.heading_rad);
 }
 
-// A point of the tangent frame in the camera's: x right, y down, z forward.
+// Transforms a point from the tangent frame to the camera frame (x right, y down, z forward).
 template <class Scalar>
-typename CameraPoseOf<Scalar>::Vector3 seen_from(
+typename CameraPoseOf<Scalar>::Vector3 point_in_camera(
     const CameraPoseOf<Scalar>& pose, const typename CameraPoseOf<Scalar>::Vector3& point_enu_m) {
   return camera_from_enu(pose) * (point_enu_m - pose.enu_m);
 }
 
-// From the camera's frame (x right, y down, z forward) to the tangent frame.
+// The transform from the camera frame (x right, y down, z forward) to the tangent frame.
 inline Eigen::Isometry3d enu_from_camera(const CameraPose& pose) {
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   transform.linear() = camera_from_enu(pose).transpose();
@@ -80,7 +80,7 @@ inline Eigen::Isometry3d enu_from_camera(const CameraPose& pose) {
   return transform;
 }
 
-// The pose that it is of. REQUIRES: the camera does not look straight up or down.
+// The inverse of the above. REQUIRES: the camera does not look straight up or down.
 inline CameraPose pose_of(const Eigen::Isometry3d& enu_from_camera) {
   const Eigen::Vector3d right = enu_from_camera.linear().col(0);
   const Eigen::Vector3d forward = enu_from_camera.linear().col(2);

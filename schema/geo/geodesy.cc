@@ -29,7 +29,7 @@ double geodesic_azimuth_deg(const GeoPoint& from, const GeoPoint& to) {
 double wrapped_360(double angle_deg) {
   const double wrapped = std::fmod(angle_deg, 360.0);
   const double turned = wrapped < 0 ? wrapped + 360.0 : wrapped;
-  return turned >= 360.0 ? 0.0 : turned;  // a tiny negative angle rounds up to a whole turn
+  return turned >= 360.0 ? 0.0 : turned;  // a tiny negative angle rounds up to 360
 }
 
 double turn_deg(double from_deg, double to_deg) {

@@ -27,16 +27,16 @@ struct EnuPoint {
 // Whether latitude and longitude are finite and in range.
 bool is_valid(const GeoPoint& point);
 
-// Length of the geodesic on the ellipsoid's surface between two points; altitudes play no part.
+// Length of the geodesic on the ellipsoid's surface between two points; altitudes are ignored.
 double geodesic_distance_m(const GeoPoint& from, const GeoPoint& to);
 
 // Azimuth of the geodesic at `from`, clockwise from north, [0, 360).
 double geodesic_azimuth_deg(const GeoPoint& from, const GeoPoint& to);
 
-// Brings an angle into [0, 360).
+// Wraps an angle into [0, 360).
 double wrapped_360(double angle_deg);
 
-// The shorter turn from a direction to another, clockwise, (-180, 180].
+// The smallest signed turn from one direction to another, clockwise, (-180, 180].
 double turn_deg(double from_deg, double to_deg);
 
 // The tangent frame at an origin. Immutable, so safe to share between threads.

@@ -6,11 +6,11 @@
 namespace milepost {
 namespace {
 
-// A degree of latitude is never shorter on WGS84 than here; nor is a degree of longitude, times
-// the cosine of the latitude.
+// A lower bound of a degree of latitude on WGS84 and, times the cosine of the latitude, of a degree
+// of longitude.
 constexpr double kMetresPerDegree = 110500;
 
-// How far `longitude_deg` lies outside [west, east], going round the shorter way.
+// How far `longitude_deg` lies outside [west, east], the shorter way round.
 double degrees_outside(double longitude_deg, double west_deg, double east_deg) {
   if (west_deg <= longitude_deg && longitude_deg <= east_deg) return 0;
   return std::min(wrapped_360(west_deg - longitude_deg), wrapped_360(longitude_deg - east_deg));
@@ -35,7 +35,7 @@ bool may_be_within(const Bounds& box, const GeoPoint& position, double radius_m)
   if (latitude_deg < box.south_deg - reach_deg || latitude_deg > box.north_deg + reach_deg) {
     return false;
   }
-  // Degrees of longitude are shortest at the end of the reach that is nearer to a pole.
+  // Degrees of longitude are shortest at the latitude within reach that is nearest to a pole.
   const double highest_deg = std::abs(latitude_deg) + reach_deg;
   if (highest_deg >= 90) return true;
   const double shrink = std::cos(highest_deg * kRadPerDeg);

@@ -1,4 +1,4 @@
-// What is near to a position: the rule that the server, its clients and map files share.
+// Proximity to a position: the rule that the server, its clients and map files share.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,19 @@
 
 namespace milepost {
 
-inline constexpr double kMaxNearRadiusM = 10'000;  // bounds the work and the size of one answer
+inline constexpr double kMaxNearRadiusM = 10'000;  // limits the work and the size of one response
 
 // More than 0 and at most kMaxNearRadiusM.
 bool is_near_radius(double radius_m);
 
-// The box about points. REQUIRES: not empty.
+// The bounding box of points. REQUIRES: not empty.
 Bounds bounds_around(const std::vector<GeoPoint>& points);
 
 // False only if every point of the box is farther than `radius_m` from `position`, also across
 // longitude 180 and near the poles. REQUIRES: the box does not cross longitude 180.
 bool may_be_within(const Bounds& box, const GeoPoint& position, double radius_m);
 
-// A line with the box about it, which rules out far positions before any geometry.
+// A line with its bounding box, which rules out distant positions without geodesic computations.
 struct BoxedLine {
   explicit BoxedLine(RouteLine given)
       : line(std::move(given)), box(bounds_around(line.vertices())) {}
@@ -30,7 +30,7 @@ struct BoxedLine {
   RouteLine line;
   Bounds box;
 
-  // Nothing where the line does not pass within the radius.
+  // Nothing if the line does not pass within the radius.
   std::optional<LineProjection> nearest_within(const GeoPoint& position, double radius_m) const;
 };
 

@@ -1,4 +1,4 @@
-// What a vehicle's wheels say of its motion.
+// A reading of a vehicle's wheel odometry.
 #pragma once
 
 namespace milepost {
@@ -6,7 +6,7 @@ namespace milepost {
 struct Odometry {
   double timestamp_s = 0;
   double speed_mps = 0;     // forwards
-  double yaw_rate_dps = 0;  // degrees a second, clockwise
+  double yaw_rate_dps = 0;  // degrees per second, clockwise
 };
 
 }  // namespace milepost

@@ -26,11 +26,11 @@ Result<RouteLine> RouteLine::from_vertices(std::vector<GeoPoint> vertices) {
   for (const GeoPoint& vertex : vertices) {
     if (!is_valid(vertex)) {
       return Error{ErrorCode::invalid_input, "route line",
-                   "a vertex is not a position on the Earth", ""};
+                   "a vertex is not a valid latitude and longitude", ""};
     }
   }
   if (vertices.size() < 2) {
-    return Error{ErrorCode::invalid_input, "route line", "a line needs two vertices or more", ""};
+    return Error{ErrorCode::invalid_input, "route line", "a line needs two or more vertices", ""};
   }
   std::vector<double> along_m = along_of(vertices);
   if (along_m.back() <= 0) {
@@ -48,7 +48,7 @@ RouteLine::RouteLine(std::vector<GeoPoint> vertices, std::vector<double> along_m
     enu_.push_back(frame_.enu_from_geo(on_ellipsoid(vertex)));
 }
 
-// The edge with length that holds `along_m`, by the index of its first vertex.
+// The index of the first vertex of the edge of non-zero length that contains `along_m`.
 std::size_t RouteLine::edge_at(double along_m) const {
   const double inside_m = std::clamp(along_m, 0.0, length_m());
   auto end = std::upper_bound(along_m_.begin(), along_m_.end(), inside_m);

@@ -15,14 +15,14 @@ constexpr const char* kIndex =
     "ORDER BY number";
 constexpr const char* kCell = "SELECT digest, frame FROM cells WHERE layer = ? AND number = ?";
 
-bool is_sound(const Rows& row) {
+bool is_sound_cell_row(const Rows& row) {
   return row->integer(1) >= 0 && row->integer(2) >= 0 && is_digest(row->text(3)) &&
          check_frame(static_cast<std::uint64_t>(row->integer(2)),
                      static_cast<std::uint64_t>(row->integer(1)), "")
              .ok();
 }
 
-CellEntry entry_at(const Rows& row) {
+CellEntry cell_entry_at(const Rows& row) {
   return {static_cast<std::uint32_t>(row->integer(0)), static_cast<std::uint64_t>(row->integer(1)),
           static_cast<std::uint64_t>(row->integer(2)), row->text(3)};
 }
@@ -38,7 +38,7 @@ Result<MapCells> MapCells::of(const sqlite::Database& map) {
 }
 
 Result<std::vector<CellEntry>> MapCells::in(const std::string& layer, const Bounds& box) {
-  // A box also meets the cells that it only touches: one row more to the south.
+  // A box also intersects the cells that it only touches: one more row to the south.
   const std::uint32_t south_row = GridCell::at(std::clamp(box.south_deg, -90.0, 90.0), -180).row;
   const GridCell first{south_row > 0 ? south_row - 1 : 0, 0};
   const GridCell last = GridCell::at(std::clamp(box.north_deg, -90.0, 90.0), 180);
@@ -50,11 +50,11 @@ Result<std::vector<CellEntry>> MapCells::in(const std::string& layer, const Boun
     const Result<bool> more = row.next();
     if (!more) return more.error();
     if (!*more) return entries;
-    if (!is_sound(row)) {
+    if (!is_sound_cell_row(row)) {
       return corrupt(file_ + ", " + cell_name(layer, row->integer(0)),
                      "the entry in the index of cells is damaged");
     }
-    const CellEntry entry = entry_at(row);
+    const CellEntry entry = cell_entry_at(row);
     if (GridCell::numbered(entry.cell).bounds().meets(box)) entries.push_back(entry);
   }
 }

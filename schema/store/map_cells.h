@@ -1,4 +1,4 @@
-// Reads the table of a map's cells.
+// Reads a map's table of cells.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace milepost {
 
-// Lives no longer than the map's Database. Which layers there are is not its matter.
+// The map's Database must outlive it. Does not check that a layer exists.
 class MapCells {
  public:
-  // Errors: corrupt where the map lacks the table.
+  // Errors: corrupt if the map lacks the table.
   static Result<MapCells> of(const sqlite::Database& map);
 
-  // The entries of cells that meet the box, ascending. Errors: corrupt, io.
+  // The entries of cells that intersect the box, ascending. Errors: corrupt, io.
   Result<std::vector<CellEntry>> in(const std::string& layer, const Bounds& box);
 
   // Where a cell's bytes are.
@@ -25,7 +25,7 @@ class MapCells {
     std::string digest;
     std::int64_t frame = 0;  // id in the table frames
   };
-  // None of a cell that the map does not have. Errors: corrupt, io.
+  // Nothing for a cell that the map does not have. Errors: corrupt, io.
   Result<std::optional<Place>> place_of(const std::string& layer, std::uint32_t number);
 
  private:

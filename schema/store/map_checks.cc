@@ -15,14 +15,14 @@ bool is_within(double value, double limit) { return std::abs(value) <= limit; } 
 Status check_vertex(const StoredVertex& vertex, const StoredVertex* before,
                     const std::string& where) {
   if (!is_within(vertex.latitude_deg, 90) || !is_within(vertex.longitude_deg, 180)) {
-    return unstorable(where, "the position is not in degrees of the Earth (FORMAT.md 2.5)");
+    return unstorable(where, "the position is not a valid latitude and longitude (FORMAT.md 2.5)");
   }
   if (!is_within(vertex.altitude_m, kMaxAltitudeM)) {
     return unstorable(where, "the altitude is more than 100 km (FORMAT.md 2.5)");
   }
   const double least_m = before == nullptr ? 0 : before->along_m;
   if (!(vertex.along_m >= least_m && vertex.along_m <= kMaxAlongM)) {
-    return unstorable(where, "the along does not ascend from 0 on (FORMAT.md 2.5)");
+    return unstorable(where, "along_m does not ascend from 0 (FORMAT.md 2.5)");
   }
   return ok_status();
 }
@@ -31,14 +31,14 @@ Status check_vertex(const StoredVertex& vertex, const StoredVertex* before,
 
 Status check_segment(const StoredSegment& segment, const std::string& where) {
   if (!is_segment_id(segment.id)) {
-    return unstorable(where, "'" + segment.id + "' is no segment's id");
+    return unstorable(where, "'" + segment.id + "' is not a segment id");
   }
   const std::string place = where + ", segment " + segment.id;
   if (!(segment.length_m > 0 && segment.length_m <= kMaxAlongM)) {
     return unstorable(place, "the length is not above 0 and at most 100000 km (FORMAT.md 2.5)");
   }
   if (segment.vertices.size() < 2) {
-    return unstorable(place, "a line has two vertices or more (FORMAT.md 2.5)");
+    return unstorable(place, "a line needs two or more vertices (FORMAT.md 2.5)");
   }
   const StoredVertex* before = nullptr;
   for (std::size_t i = 0; i < segment.vertices.size(); ++i) {
@@ -49,7 +49,7 @@ Status check_segment(const StoredSegment& segment, const std::string& where) {
   }
   for (const std::string& successor : segment.successors) {
     if (is_segment_id(successor)) continue;
-    return unstorable(place, "the successor '" + successor + "' is no segment's id");
+    return unstorable(place, "the successor '" + successor + "' is not a segment id");
   }
   return ok_status();
 }
@@ -68,7 +68,7 @@ Status check_along(const AlongRange& along, const std::string& where) {
       is_within(along.to_m, kMaxAlongM)) {
     return ok_status();
   }
-  return unstorable(where, "the along range does not go from less to more (FORMAT.md 2.6)");
+  return unstorable(where, "the along range is not ascending and within 100000 km (FORMAT.md 2.6)");
 }
 
 }  // namespace milepost

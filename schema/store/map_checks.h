@@ -1,4 +1,4 @@
-// What a map may hold (FORMAT.md 2): a writer stores nothing that a reader would refuse.
+// Limits of a map's content (FORMAT.md 2): a writer stores nothing that a reader would reject.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace milepost {
 
-inline constexpr double kMaxAlongM = 1e8;     // of anything along a segment
+inline constexpr double kMaxAlongM = 1e8;     // of any arc length
 inline constexpr double kMaxAltitudeM = 1e5;  // above or below the ellipsoid
 inline constexpr std::uint64_t kMaxFrameBytes = 256ULL << 20U;
 
@@ -21,7 +21,7 @@ Status check_segment(const StoredSegment& segment, const std::string& where);
 // Whether the bytes of a tile or a cell with `items` items can be stored. `where` names it.
 Status check_frame(std::uint64_t bytes, std::uint64_t items, const std::string& where);
 
-// Whether a tile can lie there. `where` names it.
+// Whether a tile can have this range. `where` names it.
 Status check_along(const AlongRange& along, const std::string& where);
 
 }  // namespace milepost

@@ -7,11 +7,11 @@
 namespace milepost {
 namespace {
 
-// One list that the build covers: its rows in the order of their keys.
+// One table that the build covers, its rows in the order of their keys.
 struct List {
   const char* count;
   const char* rows;
-  const char* columns;  // a letter each: t text, i integer, r real
+  const char* columns;  // one letter each: t text, i integer, r real
 };
 
 constexpr List kLists[] = {
@@ -43,9 +43,9 @@ void add_row(FieldDigest& digest, const sqlite::Statement& row, const char* colu
   }
 }
 
-// Runs a query and gives each of its rows to `use`.
+// Runs a query and passes each of its rows to `use`.
 template <class Use>
-Status for_each_row(const sqlite::Database& map, const char* query, Use use) {
+Status for_each_content_row(const sqlite::Database& map, const char* query, Use use) {
   Result<sqlite::Statement> statement = map.prepare(query);
   if (!statement) return statement.error();
   while (true) {
@@ -57,12 +57,12 @@ Status for_each_row(const sqlite::Database& map, const char* query, Use use) {
 }
 
 Status add_list(FieldDigest& digest, const sqlite::Database& map, const List& list) {
-  const Status counted = for_each_row(map, list.count, [&](const sqlite::Statement& row) {
+  const Status counted = for_each_content_row(map, list.count, [&](const sqlite::Statement& row) {
     digest.add(static_cast<std::uint64_t>(row.integer(0)));
   });
   if (!counted.ok()) return counted;
-  return for_each_row(map, list.rows,
-                      [&](const sqlite::Statement& row) { add_row(digest, row, list.columns); });
+  return for_each_content_row(
+      map, list.rows, [&](const sqlite::Statement& row) { add_row(digest, row, list.columns); });
 }
 
 }  // namespace
@@ -70,8 +70,9 @@ Status add_list(FieldDigest& digest, const sqlite::Database& map, const List& li
 Result<std::string> build_of(const sqlite::Database& map) {
   FieldDigest digest;
   digest.add(static_cast<std::uint64_t>(kMapFormatVersion));
-  Status status = for_each_row(map, "SELECT value FROM meta WHERE key = 'feature'",
-                               [&](const sqlite::Statement& row) { digest.add(row.text(0)); });
+  Status status =
+      for_each_content_row(map, "SELECT value FROM meta WHERE key = 'feature'",
+                           [&](const sqlite::Statement& row) { digest.add(row.text(0)); });
   for (const List& list : kLists) {
     if (!status.ok()) return status.error();
     status = add_list(digest, map, list);
@@ -83,14 +84,15 @@ Result<std::string> build_of(const sqlite::Database& map) {
 Result<Bounds> bounds_of(const sqlite::Database& map) {
   std::optional<Bounds> bounds;
   const auto add = [&bounds](const Bounds& box) { bounds = bounds ? bounds->joined(box) : box; };
-  Status status = for_each_row(map,
-                               "SELECT min(longitude_deg), min(latitude_deg), max(longitude_deg), "
-                               "max(latitude_deg) FROM vertices HAVING count(*) > 0",
-                               [&](const sqlite::Statement& row) {
-                                 add({row.real(0), row.real(1), row.real(2), row.real(3)});
-                               });
+  Status status =
+      for_each_content_row(map,
+                           "SELECT min(longitude_deg), min(latitude_deg), max(longitude_deg), "
+                           "max(latitude_deg) FROM vertices HAVING count(*) > 0",
+                           [&](const sqlite::Statement& row) {
+                             add({row.real(0), row.real(1), row.real(2), row.real(3)});
+                           });
   if (!status.ok()) return status.error();
-  status = for_each_row(map, "SELECT number FROM cells", [&](const sqlite::Statement& row) {
+  status = for_each_content_row(map, "SELECT number FROM cells", [&](const sqlite::Statement& row) {
     add(GridCell::numbered(static_cast<std::uint32_t>(row.integer(0))).bounds());
   });
   if (!status.ok()) return status.error();

@@ -1,4 +1,4 @@
-// What the writer and the reader of a map both compute from its tables.
+// Values that both the writer and the reader of a map compute from its tables.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace milepost {
 inline constexpr std::int64_t kMapApplicationId = 0x4D504D31;  // "MPM1"
 inline constexpr std::int64_t kMapFormatVersion = 2;
 
-// The digest of everything that readers of the map are told (FORMAT.md 2.7).
+// The digest of the map's content (FORMAT.md 2.7).
 Result<std::string> build_of(const sqlite::Database& map);
 
 // The smallest box around all vertices and cells; zeros without either.

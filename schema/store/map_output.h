@@ -1,4 +1,4 @@
-// Map files among the outputs of commands.
+// Map files as outputs of commands.
 #pragma once
 
 #include "schema/base/output_file.h"

@@ -17,8 +17,8 @@ namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-// A map comes from elsewhere: nothing in its schema may run code, and damaged cells are refused.
-constexpr const char* kSettings = "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
+// A map is untrusted: nothing in its schema may run code, and damaged cells are rejected.
+constexpr const char* kReadSettings = "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
 
 enum Query { kMeta, kSegment, kVertices, kSuccessors, kTileIndex, kTilesIn, kTile, kFrame };
 constexpr const char* kQueries[] = {
@@ -29,7 +29,7 @@ constexpr const char* kQueries[] = {
     "SELECT successor FROM successors WHERE segment = ? ORDER BY position",
     "SELECT number, from_m, to_m, items, bytes, digest FROM tiles WHERE segment = ? AND layer = ? "
     "ORDER BY number",
-    // A millimetre more than the longest tile makes up for the rounding of the differences.
+    // A millimetre more than the longest tile compensates for the rounding of the differences.
     "SELECT number, from_m, to_m, items, bytes, digest FROM tiles INDEXED BY tiles_by_from "
     "WHERE segment = ?1 AND layer = ?2 AND to_m >= ?3 AND from_m <= ?4 AND from_m >= ?3 - 0.001 - "
     "(SELECT longest_m FROM spans WHERE segment = ?1 AND layer = ?2) ORDER BY number",
@@ -42,7 +42,7 @@ Status check_format(const sqlite::Database& map) {
   const Result<std::int64_t> application = map.integer("PRAGMA application_id");
   if (!application) return application.error();
   if (*application != kMapApplicationId) {
-    return corrupt(map.file().string(), "this is no milepost map");
+    return corrupt(map.file().string(), "this is not a milepost map");
   }
   const Result<std::int64_t> version = map.integer("PRAGMA user_version");
   if (!version) return version.error();
@@ -53,7 +53,7 @@ Status check_format(const sqlite::Database& map) {
                "build the map with the same version of milepost that reads it"};
 }
 
-TileEntry entry_at(const Rows& row) {
+TileEntry tile_entry_at(const Rows& row) {
   return {static_cast<std::uint32_t>(row->integer(0)),
           {row->real(1), row->real(2)},
           static_cast<std::uint64_t>(row->integer(3)),
@@ -61,7 +61,7 @@ TileEntry entry_at(const Rows& row) {
           row->text(5)};
 }
 
-bool is_sound(const Rows& row) {
+bool is_sound_tile_row(const Rows& row) {
   return row->integer(0) >= 0 && row->integer(0) <= std::numeric_limits<std::uint32_t>::max() &&
          row->integer(3) >= 0 && row->integer(4) >= 0 && is_digest(row->text(5)) &&
          check_along({row->real(1), row->real(2)}, "").ok() &&
@@ -70,12 +70,12 @@ bool is_sound(const Rows& row) {
              .ok();
 }
 
-// It is not quoted: what is no id may be no text either.
+// The name is not quoted: it may hold any bytes.
 Status malformed_name(const std::string& where, const std::string& whose) {
   return corrupt(where, whose + " name is malformed");
 }
 
-// What breaks a check is the file's fault here, not the caller's.
+// A failed check is an error of the file here, not of the caller.
 Status as_corrupt(const Status& checked) {
   return checked.ok() ? checked : corrupt(checked.error().where, checked.error().what);
 }
@@ -84,7 +84,7 @@ Status as_corrupt(const Status& checked) {
 
 struct MapReader::Impl {
   sqlite::Database database;
-  std::vector<sqlite::Statement> queries{};  // go before the connection they belong to
+  std::vector<sqlite::Statement> queries{};  // destroyed before their connection
   std::optional<MapCells> cells{};           // the same
   std::string build{};
   std::string feature_json{};
@@ -107,7 +107,7 @@ struct MapReader::Impl {
     return ok_status();
   }
 
-  // Gives the value of `key` in the table meta to `use`.
+  // Passes the value of `key` in the table meta to `use`.
   template <class Use>
   Status read_meta(const char* key, Use use) {
     Rows row(query(kMeta).bind(1, std::string_view(key)));
@@ -128,7 +128,9 @@ struct MapReader::Impl {
 
   Status read_all_meta() {
     Status status = read_text("build", build);
-    if (status.ok() && !is_digest(build)) status = corrupt(place(), "the map's build is no digest");
+    if (status.ok() && !is_digest(build)) {
+      status = corrupt(place(), "the map's build is not a digest");
+    }
     if (status.ok()) status = read_text("feature", feature_json);
     if (status.ok()) status = read_number("west_deg", bounds.west_deg);
     if (status.ok()) status = read_number("south_deg", bounds.south_deg);
@@ -177,11 +179,11 @@ struct MapReader::Impl {
       const Result<bool> more = row.next();
       if (!more) return more.error();
       if (!*more) return entries;
-      if (!is_sound(row)) {
+      if (!is_sound_tile_row(row)) {
         return corrupt(place() + ", " + tile_name(segment, layer, row->integer(0)),
                        "the entry in the tile index is damaged");
       }
-      entries.push_back(entry_at(row));
+      entries.push_back(tile_entry_at(row));
     }
   }
 
@@ -214,7 +216,9 @@ struct MapReader::Impl {
     if (!found) return found.error();
     if (!*found) return corrupt(where, "the tile's bytes are missing");
     const ByteView bytes = row->blob(0);
-    if (digest_of(bytes) != digest) return corrupt(where, "the tile's bytes break its digest");
+    if (digest_of(bytes) != digest) {
+      return corrupt(where, "the tile's bytes do not match its digest");
+    }
     return Bytes(bytes.begin(), bytes.end());
   }
 };
@@ -228,7 +232,7 @@ Result<MapReader> MapReader::open(const fs::path& file) {
   Result<sqlite::Database> database = sqlite::Database::open(file, sqlite::Access::immutable);
   if (!database) return database.error();
   Status status = check_format(*database);
-  if (status.ok()) status = database->execute(kSettings);
+  if (status.ok()) status = database->execute(kReadSettings);
   if (!status.ok()) return status.error();
   auto impl = std::make_unique<Impl>(Impl{std::move(*database)});
   status = impl->prepare();

@@ -1,4 +1,4 @@
-// What reads the tables of a map: rows, the names of what they hold, and how damage is told.
+// Helpers to read the tables of a map: rows, names of their items for messages, and errors.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace milepost {
 
-// Resets a statement when its rows have been read, however that ended.
+// Resets a statement when its rows have been read, also after an error.
 class Rows {
  public:
   explicit Rows(sqlite::Statement& statement) : statement_(statement) {}
@@ -22,7 +22,7 @@ class Rows {
   sqlite::Statement& statement_;
 };
 
-// Gives each row of a query without parameters to `use`, which may end it by an error.
+// Passes each row of a query without parameters to `use`, which may stop it with an error.
 template <class Use>
 Status for_each_row(const sqlite::Database& map, const char* sql, Use use) {
   Result<sqlite::Statement> statement = map.prepare(sql);
@@ -47,7 +47,7 @@ inline std::string cell_name(const std::string& layer, std::int64_t number) {
 }
 
 inline Error corrupt(const std::string& where, const std::string& what) {
-  return {ErrorCode::corrupt, where, what, "replace the file by a good copy, or make it anew"};
+  return {ErrorCode::corrupt, where, what, "replace the file with a good copy, or rebuild it"};
 }
 
 }  // namespace milepost

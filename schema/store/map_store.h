@@ -35,7 +35,7 @@ struct StoredSegment {
 // One row of the tile index.
 struct TileEntry {
   std::uint32_t index = 0;
-  AlongRange along;         // holds every item's along range
+  AlongRange along;         // contains every item's range
   std::uint64_t items = 0;  // tracklets, for the layers of tracklets
   std::uint64_t bytes = 0;
   std::string digest;  // of the encoded tile
@@ -58,11 +58,11 @@ struct CellEntry {
 };
 
 // Reads one map. Opens the file read only and never changes it; a map file is replaced by renaming,
-// so an open reader goes on reading the build it opened.
-// Not safe to use from several threads at once: open one reader a thread.
+// so an open reader keeps reading the build that it opened.
+// Not safe to use from several threads at once: open one reader per thread.
 class MapReader {
  public:
-  // Errors: not_found, corrupt (no milepost map, or one of another format version), io.
+  // Errors: not_found, corrupt (not a milepost map, or one of another format version), io.
   static Result<MapReader> open(const std::filesystem::path& file);
 
   MapReader(MapReader&&) noexcept;
@@ -81,18 +81,18 @@ class MapReader {
   // The index of every tile of the layer, ascending.
   Result<std::vector<TileEntry>> tile_index(const std::string& segment,
                                             const std::string& layer) const;
-  // The tiles whose along range meets the closed range `range`, ascending: all that have an item
-  // there, and now and then one with a gap between its items there. REQUIRES: no NaN in `range`.
+  // The tiles whose range intersects the closed range `range`, ascending: all that have an item
+  // there, and possibly one with a gap between its items there. REQUIRES: no NaN in `range`.
   Result<std::vector<TileEntry>> tiles_in(const std::string& segment, const std::string& layer,
                                           const AlongRange& range) const;
-  // One encoded tile, as it lies in the file.
+  // One encoded tile, as stored in the file.
   Result<Bytes> tile(const std::string& segment, const std::string& layer,
                      std::uint32_t index) const;
   // The index of every cell of the layer, ascending; empty for a layer of segments.
   Result<std::vector<CellEntry>> cell_index(const std::string& layer) const;
-  // The cells of the index that meet the box, ascending.
+  // The cells of the index that intersect the box, ascending.
   Result<std::vector<CellEntry>> cells_in(const std::string& layer, const Bounds& box) const;
-  // The encoded tile of one cell, as it lies in the file.
+  // The encoded tile of one cell, as stored in the file.
   Result<Bytes> cell(const std::string& layer, std::uint32_t number) const;
   // Reads every byte: SQLite's integrity check, every tile's and cell's digest, the build. Errors:
   // corrupt, io.
@@ -104,13 +104,13 @@ class MapReader {
   std::unique_ptr<Impl> impl_;
 };
 
-// Writes one map. The file appears at its place whole, when finish() is called, or not at all.
+// Writes one map. The file appears complete, when finish() is called, or not at all.
 // The same calls give the same bytes. Not safe to use from several threads at once.
 class MapWriter {
  public:
-  // Errors: io (no such folder, no permission, disk full); invalid_input for a file that is there
-  // and is no map, which is not replaced.
-  // REQUIRES: no other writer of this process is at work on the same file.
+  // Errors: io (no such folder, no permission, disk full); invalid_input for an existing file that
+  // is not a map, which is not replaced.
+  // REQUIRES: no other writer of this process writes the same file.
   static Result<MapWriter> create(const std::filesystem::path& file);
 
   MapWriter(MapWriter&&) noexcept;
@@ -118,8 +118,8 @@ class MapWriter {
   ~MapWriter();  // without finish(): removes what was written
 
   // Errors of all below: io (disk full); invalid_input for an id, a name or a number that cannot
-  // be stored. After an error of SQLite the writer refuses everything with that error.
-  Status set_feature_json(const std::string& json);  // "{}" where it is not called
+  // be stored. After an error of SQLite every call returns that error.
+  Status set_feature_json(const std::string& json);  // "{}" if not called
   Status add_layer(const std::string& name, const std::string& parameters_json);
   Status add_segment(const StoredSegment& segment);
   // REQUIRES: the segment and the layer were added, (segment, layer, index) is new.

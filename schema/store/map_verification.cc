@@ -25,15 +25,14 @@ Status check_integrity(const sqlite::Database& map) {
   });
 }
 
-// Whether the bytes in a row are whole. From the column `bytes` on it has the length, the digest
-// and the frame.
+// Checks the encoded tile in a row. The columns from `bytes` on are its length, digest and bytes.
 Status check_frame(const Rows& row, int bytes, const std::string& where) {
   const ByteView frame = row->blob(bytes + 2);
   if (static_cast<std::int64_t>(frame.size()) == row->integer(bytes) &&
       digest_of(frame) == row->text(bytes + 1)) {
     return ok_status();
   }
-  return corrupt(where, "the tile's bytes break its digest");
+  return corrupt(where, "the tile's bytes do not match its digest");
 }
 
 Status check_frames(const sqlite::Database& map) {

@@ -1,4 +1,4 @@
-// Reads every byte of a map and says what is wrong with it.
+// Checks every byte of a map.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace milepost {
 
-// `build` and `bounds` are those that the map tells of itself. Errors: corrupt, for what does not
-// agree, with its place; io.
+// `build` and `bounds` are those that the map states. Errors: corrupt, which names the location of
+// the first contradiction; io.
 Status verify_map(const sqlite::Database& map, const std::string& build, const Bounds& bounds);
 
 }  // namespace milepost

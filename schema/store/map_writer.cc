@@ -16,15 +16,24 @@ namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-// What gives the same bytes from the same calls, and a flat need of memory: a fixed page size,
-// zeros in what is not used, one transaction. No journal: an unfinished file is thrown away whole,
-// and publish_file syncs a finished one.
-constexpr const char* kSettings =
+// For the same bytes from the same calls, and constant memory: a fixed page size, zeros in unused
+// space, one transaction. No journal: an unfinished file is discarded as a whole, and publish_file
+// syncs a finished one.
+constexpr const char* kWriteSettings =
     "PRAGMA page_size = 4096; PRAGMA encoding = 'UTF-8'; PRAGMA auto_vacuum = NONE;"
     "PRAGMA secure_delete = ON; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
     "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cache_size = -8192; PRAGMA foreign_keys = ON;";
 
-enum Insert { kMeta, kLayer, kSegment, kVertex, kSuccessor, kFrame, kTile, kCell };
+enum Insert {
+  kInsertMeta,
+  kInsertLayer,
+  kInsertSegment,
+  kInsertVertex,
+  kInsertSuccessor,
+  kInsertFrame,
+  kInsertTile,
+  kInsertCell
+};
 constexpr const char* kInserts[] = {
     "INSERT INTO meta VALUES (?, ?)",
     "INSERT INTO layers VALUES (?, ?)",
@@ -43,13 +52,13 @@ Error wrong_call(const fs::path& file, const std::string& what) {
   return {ErrorCode::invalid_input, file.string(), what, ""};
 }
 
-// Readers parse what they are told of a layer or a feature.
+// Readers parse the parameters of layers and features.
 bool is_json_object(const std::string& text) {
   const Result<nlohmann::json> json = read_json(text);
   return json && json->is_object();
 }
 
-// The database of a map in the making. The statements go before the connection they belong to.
+// The database of an unfinished map. The statements are destroyed before their connection.
 struct Session {
   sqlite::Database database;
   std::vector<sqlite::Statement> inserts;
@@ -58,7 +67,7 @@ struct Session {
 Result<Session> start_session(const fs::path& partial) {
   Result<sqlite::Database> database = sqlite::Database::open(partial, sqlite::Access::read_write);
   if (!database) return database.error();
-  Status status = database->execute(kSettings);
+  Status status = database->execute(kWriteSettings);
   if (status.ok()) status = database->execute("BEGIN EXCLUSIVE");
   if (status.ok()) status = database->execute(kMapSql);
   if (!status.ok()) return status.error();
@@ -79,7 +88,7 @@ struct MapWriter::Impl {
   std::optional<Session> session;  // until finish()
   std::string feature_json = "{}";
   std::int64_t frames = 0;
-  Status failure;  // the first one: without a journal nothing can be undone, so it is the last
+  Status failure;  // the first one, which is final: without a journal there is no rollback
 
   ~Impl() {
     session.reset();
@@ -99,7 +108,7 @@ struct MapWriter::Impl {
     return error;
   }
 
-  // Remembers a failure.
+  // Records a failure.
   Status keep(const Status& status) {
     if (!status.ok()) failure = named(status.error());
     return failure;
@@ -107,13 +116,13 @@ struct MapWriter::Impl {
 
   template <class Value>
   Status add_meta(const char* key, const Value& value) {
-    return insert(kMeta).bind(1, std::string_view(key)).bind(2, value).run();
+    return insert(kInsertMeta).bind(1, std::string_view(key)).bind(2, value).run();
   }
 
   Status add_vertices(const StoredSegment& segment) {
     std::int64_t position = 0;
     for (const StoredVertex& v : segment.vertices) {
-      const Status added = insert(kVertex)
+      const Status added = insert(kInsertVertex)
                                .bind(1, segment.id)
                                .bind(2, position++)
                                .bind(3, v.latitude_deg)
@@ -130,7 +139,7 @@ struct MapWriter::Impl {
     std::int64_t position = 0;
     for (const std::string& successor : segment.successors) {
       const Status added =
-          insert(kSuccessor).bind(1, segment.id).bind(2, position++).bind(3, successor).run();
+          insert(kInsertSuccessor).bind(1, segment.id).bind(2, position++).bind(3, successor).run();
       if (!added.ok()) return added;
     }
     return ok_status();
@@ -139,7 +148,7 @@ struct MapWriter::Impl {
   // Returns the id of the stored bytes.
   Result<std::int64_t> add_frame(ByteView frame) {
     const std::int64_t id = frames++;
-    const Status stored = insert(kFrame).bind(1, id).bind(2, frame).run();
+    const Status stored = insert(kInsertFrame).bind(1, id).bind(2, frame).run();
     if (!stored.ok()) return stored.error();
     return id;
   }
@@ -181,7 +190,7 @@ Result<MapWriter> MapWriter::create(const fs::path& file) {
   auto impl = std::make_unique<Impl>();
   impl->file = file;
   impl->partial = partial_path_for(file);
-  impl->remove_partial();  // left by a killed process that had our number
+  impl->remove_partial();  // left by a killed process with the same process id
   Result<Session> session = start_session(impl->partial);
   if (!session) return impl->named(session.error());
   impl->session = std::move(*session);
@@ -191,7 +200,7 @@ Result<MapWriter> MapWriter::create(const fs::path& file) {
 Status MapWriter::set_feature_json(const std::string& json) {
   if (!impl_->failure.ok()) return impl_->failure;
   if (!is_json_object(json)) {
-    return wrong_call(impl_->file, "the feature parameters are no JSON object (FORMAT.md 2.3)");
+    return wrong_call(impl_->file, "the feature parameters are not a JSON object (FORMAT.md 2.3)");
   }
   impl_->feature_json = json;
   return ok_status();
@@ -199,18 +208,18 @@ Status MapWriter::set_feature_json(const std::string& json) {
 
 Status MapWriter::add_layer(const std::string& name, const std::string& parameters_json) {
   if (!impl_->failure.ok()) return impl_->failure;
-  if (!is_layer_name(name)) return wrong_call(impl_->file, "'" + name + "' is no layer's name");
+  if (!is_layer_name(name)) return wrong_call(impl_->file, "'" + name + "' is not a layer name");
   if (!is_json_object(parameters_json)) {
     return wrong_call(impl_->file,
-                      "the parameters of layer " + name + " are no JSON object (FORMAT.md 2.4)");
+                      "the parameters of layer " + name + " are not a JSON object (FORMAT.md 2.4)");
   }
-  return impl_->keep(impl_->insert(kLayer).bind(1, name).bind(2, parameters_json).run());
+  return impl_->keep(impl_->insert(kInsertLayer).bind(1, name).bind(2, parameters_json).run());
 }
 
 Status MapWriter::add_segment(const StoredSegment& segment) {
   if (!impl_->failure.ok()) return impl_->failure;
   if (Status checked = check_segment(segment, impl_->file.string()); !checked) return checked;
-  Status status = impl_->insert(kSegment).bind(1, segment.id).bind(2, segment.length_m).run();
+  Status status = impl_->insert(kInsertSegment).bind(1, segment.id).bind(2, segment.length_m).run();
   if (status.ok()) status = impl_->add_vertices(segment);
   if (status.ok()) status = impl_->add_successors(segment);
   return impl_->keep(status);
@@ -225,7 +234,7 @@ Status MapWriter::add_tile(const std::string& segment, const std::string& layer,
   if (Status checked = check_frame(frame.size(), items, where); !checked) return checked;
   const Result<std::int64_t> frame_id = impl_->add_frame(frame);
   if (!frame_id) return impl_->keep(frame_id.error());
-  return impl_->keep(impl_->insert(kTile)
+  return impl_->keep(impl_->insert(kInsertTile)
                          .bind(1, segment)
                          .bind(2, layer)
                          .bind(3, static_cast<std::int64_t>(index))
@@ -248,7 +257,7 @@ Status MapWriter::add_cell(const std::string& layer, std::uint32_t cell, std::ui
   if (Status checked = check_frame(frame.size(), items, where); !checked) return checked;
   const Result<std::int64_t> frame_id = impl_->add_frame(frame);
   if (!frame_id) return impl_->keep(frame_id.error());
-  return impl_->keep(impl_->insert(kCell)
+  return impl_->keep(impl_->insert(kInsertCell)
                          .bind(1, layer)
                          .bind(2, static_cast<std::int64_t>(cell))
                          .bind(3, static_cast<std::int64_t>(items))

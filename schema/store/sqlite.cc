@@ -12,21 +12,21 @@ ErrorCode code_of(int sqlite_code) {
       return ErrorCode::unavailable;
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-    case SQLITE_ERROR:  // a table or column that should be there is not
+    case SQLITE_ERROR:  // a table or column is missing
       return ErrorCode::corrupt;
-    case SQLITE_CONSTRAINT:  // a value that the table does not take
+    case SQLITE_CONSTRAINT:  // a value that the table rejects
       return ErrorCode::invalid_input;
     default:
       return ErrorCode::io;
   }
 }
 
-std::string mend_for(ErrorCode code) {
+std::string hint_for(ErrorCode code) {
   switch (code) {
     case ErrorCode::unavailable:
       return "close the other program that uses it";
     case ErrorCode::corrupt:
-      return "replace the file by a good copy, or make it anew";
+      return "replace the file with a good copy, or rebuild it";
     case ErrorCode::invalid_input:
       return "";
     default:
@@ -37,10 +37,10 @@ std::string mend_for(ErrorCode code) {
 Error error_of(sqlite3* database, int sqlite_code) {
   const char* file = sqlite3_db_filename(database, "main");
   const ErrorCode code = code_of(sqlite_code);
-  return {code, file != nullptr ? file : "", sqlite3_errmsg(database), mend_for(code)};
+  return {code, file != nullptr ? file : "", sqlite3_errmsg(database), hint_for(code)};
 }
 
-// A file: URI for a path. Everything that a URI could read as its own syntax is escaped.
+// A file: URI for a path. All characters of URI syntax are escaped.
 std::string uri_for(const std::filesystem::path& file, std::string_view query) {
   static constexpr std::string_view kHexadecimal = "0123456789ABCDEF";
   std::string uri = "file:";
@@ -79,7 +79,7 @@ Statement& Statement::bind(int parameter, std::string_view value) {
 }
 
 Statement& Statement::bind(int parameter, ByteView value) {
-  // A null pointer would be stored as NULL where an empty blob is meant.
+  // A null pointer would be stored as NULL instead of an empty blob.
   const void* data = value.empty() ? static_cast<const void*>("") : value.data();
   sqlite3_bind_blob64(statement_.get(), parameter, data, value.size(), SQLITE_TRANSIENT);
   return *this;
@@ -125,7 +125,7 @@ Result<Database> Database::open(const std::filesystem::path& file, Access access
                     (reading ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   const std::string uri = uri_for(file, reading ? "?immutable=1" : "");
   const int code = sqlite3_open_v2(uri.c_str(), &handle, flags, nullptr);
-  Database database(handle, file);  // owns the handle, which is there even after an error
+  Database database(handle, file);  // owns the handle, which exists even after an error
   if (code != SQLITE_OK) {
     Error error = error_of(handle, code);
     error.where = file.string();

@@ -1,4 +1,4 @@
-// A thin owner of SQLite handles: no query is hidden, no handle leaks, errors are values.
+// A thin RAII wrapper of SQLite handles: queries stay explicit, errors are values.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct sqlite3_stmt;
 namespace milepost::sqlite {
 
 // A prepared statement. Parameters and columns count from 1 and 0, as in SQLite.
-// Lives no longer than its Database.
+// Its Database must outlive it.
 class Statement {
  public:
   Statement& bind(int parameter, std::int64_t value);
@@ -24,8 +24,8 @@ class Statement {
   Statement& bind(int parameter, std::string_view value);  // copied
   Statement& bind(int parameter, ByteView value);          // copied
 
-  // True if a row is there to read, false at the end. Errors: io (disk full too), corrupt,
-  // invalid_input (breaks a constraint), unavailable (locked by another process).
+  // True if there is a row to read, false at the end. Errors: io (disk full too), corrupt,
+  // invalid_input (violates a constraint), unavailable (locked by another process).
   Result<bool> step();
   // step() for a statement without rows, then reset().
   Status run();
@@ -47,7 +47,7 @@ class Statement {
 
 enum class Access {
   immutable,   // read only; the file never changes under this name (it is replaced by renaming)
-  read_write,  // made if it does not exist
+  read_write,  // created if it does not exist
 };
 
 // One connection. Not safe to use from several threads at once.
@@ -56,9 +56,9 @@ class Database {
   // Errors: not_found (immutable only), io, corrupt.
   static Result<Database> open(const std::filesystem::path& file, Access access);
 
-  // Runs one or more statements that give no rows. Errors: as Statement::step.
+  // Runs one or more statements that return no rows. Errors: as Statement::step.
   Status execute(const std::string& sql);
-  // Errors: corrupt (the file is no database, or lacks the table).
+  // Errors: corrupt (the file is not a database, or lacks the table).
   Result<Statement> prepare(std::string_view sql) const;
   // The first column of the first row, 0 if there is none. Errors: as Statement::step.
   Result<std::int64_t> integer(std::string_view sql) const;

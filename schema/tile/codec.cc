@@ -21,7 +21,9 @@ Bytes encode_observations(const ObservationTile& tile) {
   return compress_frame(table_from_observations(tile));
 }
 
-Bytes encode_frames(const FrameTile& tile) { return compress_frame(table_from_frames(tile)); }
+Bytes encode_frames(const ImageDescriptorTile& tile) {
+  return compress_frame(table_from_frames(tile));
+}
 
 Bytes encode_landmarks(const LandmarkTile& tile) {
   const Bytes table = table_from_landmarks(tile);
@@ -36,7 +38,9 @@ Result<ObservationTile> decode_observations(ByteView frame) {
   return decode(frame, observations_from_table);
 }
 
-Result<FrameTile> decode_frames(ByteView frame) { return decode(frame, frames_from_table); }
+Result<ImageDescriptorTile> decode_frames(ByteView frame) {
+  return decode(frame, frames_from_table);
+}
 
 Result<LandmarkTile> decode_landmarks(ByteView frame) {
   return decode(frame, landmarks_from_table);

@@ -13,13 +13,13 @@ std::uint16_t whole_pixel(float px) {
 
 Error broken_tile(const std::string& where, const std::string& what, const std::string& paragraph) {
   return {ErrorCode::corrupt, where, what + " (FORMAT.md " + paragraph + ")",
-          "fetch the tile again or replace the map by a good copy"};
+          "fetch the tile again or replace the map with a good copy"};
 }
 
 Status check_head(std::string_view segment, double origin_m) {
-  if (!is_segment_id(segment)) return broken_tile("tile", "the segment's id is not one", "3.4");
+  if (!is_segment_id(segment)) return broken_tile("tile", "the segment id is invalid", "3.4");
   if (!(std::abs(origin_m) <= kMaxAlongM)) {
-    return broken_tile("tile", "the origin is not an along", "3.4");
+    return broken_tile("tile", "origin_m is out of range", "3.4");
   }
   return ok_status();
 }
@@ -53,7 +53,7 @@ Status check_tracklet(const Tracklet& t, const std::string& where) {
       {t.scale_min_px <= t.scale_max_px && std::isfinite(t.scale_max_px),
        "the largest scale is not finite and at least the smallest", "3.7"},
       {std::abs(t.along.from_m) <= kMaxAlongM && std::abs(t.along.to_m) <= kMaxAlongM,
-       "the along range is not one of alongs", "3.8"},
+       "the along range is out of range", "3.8"},
       {t.along.from_m <= t.along.to_m, "the along range ends before it begins", "3.8"},
       {t.pixels.x_min_px <= t.pixels.x_max_px && t.pixels.y_min_px <= t.pixels.y_max_px,
        "the pixel range ends before it begins", "3.9"},

@@ -1,5 +1,5 @@
-// What the tables of all kinds of tiles share: arrays written item by item, and the checks of what
-// is read.
+// Shared by the tables of all kinds of tiles: writing of arrays item by item, and checks for
+// reading.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace milepost {
 
 inline constexpr double kMaxAlongM = 1e8;
 
-// One array of a table: a value of every item.
+// One array of a table, with one value per item.
 template <class Value, class Item, class ValueOf>
 std::vector<Value> column(const std::vector<Item>& items, ValueOf value_of) {
   std::vector<Value> values;
@@ -38,14 +38,13 @@ Bytes descriptor_column(const std::vector<Item>& items, DescriptorOf descriptor_
   return bytes;
 }
 
-// A pixel position as the format goes: 0 to 65535.
+// A pixel coordinate in the format's range: 0 to 65535.
 std::uint16_t whole_pixel(float px);
 
-// An error of what `where` names that breaks `paragraph` of FORMAT.md.
+// The error of an item, named by `where`, that violates `paragraph` of FORMAT.md.
 Error broken_tile(const std::string& where, const std::string& what, const std::string& paragraph);
 
-// What FORMAT.md 3.4 says of the head of tiles of every kind, and of the model of those that have
-// one.
+// Check FORMAT.md 3.4: the head of tiles of every kind, and the scale model of those that have one.
 Status check_head(std::string_view segment, double origin_m);
 Status check_model(std::uint8_t model);
 
@@ -60,7 +59,7 @@ struct NamedLength {
   std::size_t length;
 };
 
-// Whether each array has as many values as the array `reference`.
+// Checks that each array has as many values as the array `reference`.
 Status check_lengths(const std::string& where, const NamedLength& reference,
                      std::initializer_list<NamedLength> arrays, const std::string& paragraph);
 

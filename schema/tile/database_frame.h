@@ -1,4 +1,4 @@
-// A frame of the mapping drive, as the methods that match whole frames need it.
+// A frame of the mapping drive, for the methods that match whole frames.
 // The tracklet paper, section 5.2, comparative methods 1 and 2.
 #pragma once
 
@@ -13,13 +13,13 @@ namespace milepost {
 
 struct DatabaseFrame {
   double along_m = 0;                    // capture position
-  FeatureSet features;                   // empty in a layer that keeps none
-  std::optional<ImageDescriptor> image;  // nothing in a layer that keeps none
+  FeatureSet features;                   // empty in a layer that stores none
+  std::optional<ImageDescriptor> image;  // nothing in a layer that stores none
 };
 
-// The frames that were captured in [index, index + 1) * tile length of one segment, by along.
+// The frames that were captured in [index, index + 1) * tile length of one segment, by arc length.
 // Either all of them have an image descriptor or none.
-struct FrameTile {
+struct ImageDescriptorTile {
   std::string segment;
   std::uint32_t index = 0;
   std::vector<DatabaseFrame> frames;

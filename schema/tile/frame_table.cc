@@ -9,10 +9,9 @@
 namespace milepost {
 namespace {
 
-constexpr const char* kWrongTable =
-    "the content is no verified FlatBuffer with the identifier MPF1";
+constexpr const char* kNotFrames = "the content is not a valid FlatBuffer with the identifier MPF1";
 
-FeatureSet features_of(const FrameTile& tile) {
+FeatureSet features_of(const ImageDescriptorTile& tile) {
   FeatureSet all;
   for (const DatabaseFrame& frame : tile.frames) {
     const FeatureSet& set = frame.features;
@@ -22,7 +21,7 @@ FeatureSet features_of(const FrameTile& tile) {
   return all;
 }
 
-std::vector<float> image_values_of(const FrameTile& tile) {
+std::vector<float> image_values_of(const ImageDescriptorTile& tile) {
   std::vector<float> values;
   for (const DatabaseFrame& frame : tile.frames) {
     if (frame.image) values.insert(values.end(), frame.image->begin(), frame.image->end());
@@ -30,15 +29,15 @@ std::vector<float> image_values_of(const FrameTile& tile) {
   return values;
 }
 
-flatbuffers::Offset<fbs::FrameTile> build_table(flatbuffers::FlatBufferBuilder& builder,
-                                                const FrameTile& tile) {
+flatbuffers::Offset<fbs::ImageDescriptorTile> build_table(flatbuffers::FlatBufferBuilder& builder,
+                                                          const ImageDescriptorTile& tile) {
   const double origin_m = tile.frames.empty() ? 0 : tile.frames.front().along_m;
   const bool has_images = !tile.frames.empty() && tile.frames.front().image;
   const FeatureSet all = features_of(tile);
   const auto shorts = [&](auto value_of) {
     return builder.CreateVector(column<std::uint16_t>(all.features, value_of));
   };
-  // Named one by one: as arguments of one call their order in the bytes would be the compiler's.
+  // Separate statements: the order of evaluation of arguments, and so of the bytes, is unspecified.
   const auto segment = builder.CreateString(tile.segment);
   const auto along = builder.CreateVector(column<float>(
       tile.frames, [&](auto& frame) { return static_cast<float>(frame.along_m - origin_m); }));
@@ -51,25 +50,25 @@ flatbuffers::Offset<fbs::FrameTile> build_table(flatbuffers::FlatBufferBuilder& 
       column<float>(all.features, [](auto& feature) { return feature.scale_px; }));
   const auto x = shorts([](auto& feature) { return whole_pixel(std::round(feature.x_px)); });
   const auto y = shorts([](auto& feature) { return whole_pixel(std::round(feature.y_px)); });
-  return fbs::CreateFrameTile(builder, segment, tile.index, origin_m, kDescriptorBytes,
-                              has_images ? kImageDescriptorValues : 0, along, counts, images, bytes,
-                              scale, x, y);
+  return fbs::CreateImageDescriptorTile(builder, segment, tile.index, origin_m, kDescriptorBytes,
+                                        has_images ? kImageDescriptorValues : 0, along, counts,
+                                        images, bytes, scale, x, y);
 }
 
-Status check_arrays(const fbs::FrameTile& table, const std::string& where) {
+Status check_arrays(const fbs::ImageDescriptorTile& table, const std::string& where) {
   const std::size_t frames = table.along_m()->size();
   if (table.features()->size() != frames) {
     return broken_tile(where, "the length of features is not that of along_m", "4.7");
   }
   if (table.image_values() != 0 && table.image_values() != kImageDescriptorValues) {
-    return broken_tile(where, "an image descriptor is not of 64 values", "4.8");
+    return broken_tile(where, "an image descriptor does not have 64 values", "4.8");
   }
   if (table.image_descriptors()->size() != frames * table.image_values()) {
     return broken_tile(where, "the length of image_descriptors is not image_values times along_m's",
                        "4.8");
   }
   if (table.descriptor_bytes() != kDescriptorBytes) {
-    return broken_tile(where, "a descriptor is not of 128 bytes", "4.9");
+    return broken_tile(where, "a descriptor does not have 128 bytes", "4.9");
   }
   const std::size_t features = table.scale_px()->size();
   const auto& counts = *table.features();
@@ -84,7 +83,7 @@ Status check_arrays(const fbs::FrameTile& table, const std::string& where) {
 }
 
 // Each comparison is written so that NaN fails it.
-Result<ImageDescriptor> image_at(const fbs::FrameTile& table, flatbuffers::uoffset_t i,
+Result<ImageDescriptor> image_at(const fbs::ImageDescriptorTile& table, flatbuffers::uoffset_t i,
                                  const std::string& where) {
   ImageDescriptor image;
   for (flatbuffers::uoffset_t k = 0; k < kImageDescriptorValues; ++k) {
@@ -97,12 +96,12 @@ Result<ImageDescriptor> image_at(const fbs::FrameTile& table, flatbuffers::uoffs
 }
 
 // The frame `i`, whose features begin at `first`.
-Result<DatabaseFrame> frame_at(const fbs::FrameTile& table, flatbuffers::uoffset_t i,
+Result<DatabaseFrame> frame_at(const fbs::ImageDescriptorTile& table, flatbuffers::uoffset_t i,
                                flatbuffers::uoffset_t first, const std::string& where) {
   DatabaseFrame frame;
   frame.along_m = table.origin_m() + table.along_m()->Get(i);
   if (!(std::abs(frame.along_m) <= kMaxAlongM)) {
-    return broken_tile(where, "its along is not one", "4.7");
+    return broken_tile(where, "its along_m is out of range", "4.7");
   }
   if (table.image_values() > 0) {
     const Result<ImageDescriptor> image = image_at(table, i, where);
@@ -124,31 +123,31 @@ Result<DatabaseFrame> frame_at(const fbs::FrameTile& table, flatbuffers::uoffset
 
 }  // namespace
 
-Bytes table_from_frames(const FrameTile& tile) {
+Bytes table_from_frames(const ImageDescriptorTile& tile) {
   flatbuffers::FlatBufferBuilder builder;
-  fbs::FinishSizePrefixedFrameTileBuffer(builder, build_table(builder, tile));
+  fbs::FinishSizePrefixedImageDescriptorTileBuffer(builder, build_table(builder, tile));
   return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
 }
 
-Result<FrameTile> frames_from_table(ByteView bytes) {
+Result<ImageDescriptorTile> frames_from_table(ByteView bytes) {
   flatbuffers::Verifier verifier(bytes.data(), bytes.size());
-  if (!fbs::VerifySizePrefixedFrameTileBuffer(verifier))
-    return broken_tile("tile", kWrongTable, "4.6");
-  const fbs::FrameTile& table = *fbs::GetSizePrefixedFrameTile(bytes.data());
+  if (!fbs::VerifySizePrefixedImageDescriptorTileBuffer(verifier))
+    return broken_tile("tile", kNotFrames, "4.6");
+  const fbs::ImageDescriptorTile& table = *fbs::GetSizePrefixedImageDescriptorTile(bytes.data());
   Status status = check_head(table.segment()->string_view(), table.origin_m());
   if (!status.ok()) return status.error();
   const std::string where = place_of(table);
   status = check_arrays(table, where);
   if (!status.ok()) return status.error();
 
-  FrameTile tile{table.segment()->str(), table.index(), {}};
+  ImageDescriptorTile tile{table.segment()->str(), table.index(), {}};
   flatbuffers::uoffset_t first = 0;
   for (flatbuffers::uoffset_t i = 0; i < table.along_m()->size(); ++i) {
     const std::string place = where + ", frame " + std::to_string(i);
     Result<DatabaseFrame> frame = frame_at(table, i, first, place);
     if (!frame) return frame.error();
     if (i > 0 && !(tile.frames.back().along_m < frame->along_m)) {
-      return broken_tile(place, "the alongs of the frames do not ascend", "4.7");
+      return broken_tile(place, "along_m of the frames does not ascend", "4.7");
     }
     tile.frames.push_back(std::move(*frame));
     first += table.features()->Get(i);

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kCentimetresAMetre = 100;
 constexpr double kDecimetresAMetre = 10;
-constexpr double kLongestM = 100;     // of sizes and depth sigmas
-constexpr double kLengthStep = 1.05;  // from one size or depth sigma to the next
+constexpr double kLongestM = 100;     // largest size and depth sigma
+constexpr double kLengthStep = 1.05;  // ratio of successive sizes and depth sigmas
 
 template <class Number>
 Number nearest(double steps) {

@@ -1,9 +1,9 @@
-// A landmark in the steps in which tiles keep it (FORMAT.md 5.4 to 5.8).
+// A landmark quantized as stored in tiles (FORMAT.md 5.4 to 5.8).
 #pragma once
 
 #include <cstdint>
 
-#include "schema/feature/codebook.h"
+#include "schema/feature/pca_projection.h"
 #include "schema/tile/landmark.h"
 
 namespace milepost {
@@ -23,7 +23,7 @@ struct LandmarkSteps {
 
 inline constexpr std::uint8_t kSizeSigmaUnits = 250;
 
-// The nearest steps; a value beyond those there are takes the last. `origin_m` is the tile's.
+// Rounds to the nearest steps; values out of range saturate. `origin_m` is the tile's.
 LandmarkSteps steps_of(const Landmark& landmark, double origin_m);
 
 // steps_of(landmark_of(steps)) == steps, for origins in [-10^8, 10^8] m.

@@ -10,8 +10,8 @@
 namespace milepost {
 namespace {
 
-constexpr const char* kWrongTable =
-    "the content is no verified FlatBuffer with the identifier MPL1";
+constexpr const char* kNotLandmarks =
+    "the content is not a valid FlatBuffer with the identifier MPL1";
 
 constexpr std::int16_t LandmarkSteps::*kCoordinates[] = {
     &LandmarkSteps::east_cm, &LandmarkSteps::north_cm, &LandmarkSteps::up_cm};
@@ -34,7 +34,7 @@ std::vector<std::int8_t> descriptor_planes(const std::vector<LandmarkSteps>& lan
   return planes;
 }
 
-// The bytes of the coordinates that begin at bit `shift`.
+// The bytes at bit `shift` of the coordinates.
 Bytes position_planes(const std::vector<LandmarkSteps>& landmarks, int shift) {
   Bytes planes;
   planes.reserve(landmarks.size() * std::size(kCoordinates));
@@ -63,7 +63,7 @@ flatbuffers::Offset<fbs::LandmarkTile> build_table(flatbuffers::FlatBufferBuilde
   const auto bytes = [&](auto value_of) {
     return builder.CreateVector(column<std::uint8_t>(landmarks, value_of));
   };
-  // Named one by one: as arguments of one call their order in the bytes would be the compiler's.
+  // Separate statements: the order of evaluation of arguments, and so of the bytes, is unspecified.
   // The last comes first in the bytes.
   const auto descriptors = builder.CreateVector(descriptor_planes(landmarks));
   const auto position_low = builder.CreateVector(position_planes(landmarks, 0));
@@ -81,7 +81,7 @@ flatbuffers::Offset<fbs::LandmarkTile> build_table(flatbuffers::FlatBufferBuilde
                                  size_sigma, begin, length, observations);
 }
 
-// Whether every array has a value for each landmark, no more and no fewer.
+// Checks that every array has exactly one value per landmark.
 Status check_arrays(const fbs::LandmarkTile& table, const std::string& where) {
   const std::size_t count = table.observations()->size();
   if (count > kMaxLandmarksPerTile) return broken_tile(where, "more than 65536 landmarks", "5.3");
@@ -96,7 +96,7 @@ Status check_arrays(const fbs::LandmarkTile& table, const std::string& where) {
                                        "5.3");
   if (!lengths.ok()) return lengths;
   if (table.descriptor_values() != kCompactValues) {
-    return broken_tile(where, "a descriptor is not of 32 values", "5.4");
+    return broken_tile(where, "a descriptor does not have 32 values", "5.4");
   }
   if (table.descriptors()->size() != count * kCompactValues) {
     return broken_tile(where, "the length of descriptors is not 32 times that of observations",
@@ -160,7 +160,7 @@ std::vector<std::size_t> landmark_array_starts(ByteView bytes) {
 Result<LandmarkTile> landmarks_from_table(ByteView bytes) {
   flatbuffers::Verifier verifier(bytes.data(), bytes.size());
   if (!fbs::VerifySizePrefixedLandmarkTileBuffer(verifier))
-    return broken_tile("tile", kWrongTable, "5.2");
+    return broken_tile("tile", kNotLandmarks, "5.2");
   const fbs::LandmarkTile& table = *fbs::GetSizePrefixedLandmarkTile(bytes.data());
   Status status = check_head(table.segment()->string_view(), table.origin_m());
   if (!status.ok()) return status.error();
@@ -183,7 +183,7 @@ Result<LandmarkTile> landmarks_from_table(ByteView bytes) {
     if (!status.ok()) return status.error();
     tile.landmarks.push_back(landmark_of(steps, tile.origin_m));
     if (!(tile.landmarks.back().along.to_m <= kMaxAlongM)) {
-      return broken_tile(place, "the along range is not one of alongs", "5.7");
+      return broken_tile(place, "the along range is out of range", "5.7");
     }
   }
   return tile;

@@ -1,4 +1,4 @@
-// What the tiles of a layer hold, as the layer's parameters name it (FORMAT.md 2.4).
+// The kind of items in the tiles of a layer, as named in the layer's parameters (FORMAT.md 2.4).
 #pragma once
 
 #include <optional>

@@ -5,9 +5,7 @@
 namespace milepost {
 namespace {
 
-Error corrupt(const std::string& what) {
-  return {ErrorCode::corrupt, "", what, "build the map anew"};
-}
+Error corrupt(const std::string& what) { return {ErrorCode::corrupt, "", what, "rebuild the map"}; }
 
 }  // namespace
 
@@ -53,7 +51,7 @@ std::string items_named_in(const nlohmann::json& parameters) {
 }
 
 Result<LayerParameters> layer_parameters_from_json(const nlohmann::json& json) {
-  if (!json.is_object()) return corrupt("its parameters are no JSON object");
+  if (!json.is_object()) return corrupt("its parameters are not a JSON object");
   const auto items = layer_items_named(items_named_in(json));
   if (!items) return corrupt("its items are unknown");
   const auto focal = json.value("focal_px", nlohmann::json());
@@ -67,7 +65,8 @@ Result<LayerParameters> layer_parameters_from_json(const nlohmann::json& json) {
   const double focal_px = parameters.focal_px();
   if (!(focal_px > 0 && std::isfinite(focal_px))) return corrupt("focal_px is out of range");
   if (*items == LayerItems::landmarks) {
-    const Result<Codebook> codebook = Codebook::from_json(json.value("codebook", nlohmann::json()));
+    const Result<PcaProjection> codebook =
+        PcaProjection::from_json(json.value("codebook", nlohmann::json()));
     if (!codebook) return corrupt("its codebook: " + codebook.error().what);
     parameters.codebook = *codebook;
   }

@@ -1,5 +1,4 @@
-// The layers of a map by name, and what the map says of each (FORMAT.md 2.4): the one place that
-// reads and writes it.
+// The names of a map's layers, and the reading and writing of their parameters (FORMAT.md 2.4).
 #pragma once
 
 #include <cmath>
@@ -11,7 +10,7 @@
 
 #include "schema/base/cell_grid.h"
 #include "schema/base/result.h"
-#include "schema/feature/codebook.h"
+#include "schema/feature/pca_projection.h"
 #include "schema/tile/layer_items.h"
 #include "schema/tile/tracklet.h"
 
@@ -21,7 +20,7 @@ namespace layers {
 
 inline constexpr const char* kLandmarks = "tracklets";  // of the default method
 inline constexpr const char* kWalls = "walls";
-// Of the laboratory:
+// Added by `build --lab`:
 inline constexpr const char* kTrackletsByInverseScale = "tracklets-inverse-scale";
 inline constexpr const char* kTrackletsByScale = "tracklets-scale";
 inline constexpr const char* kObservations = "observations";
@@ -30,14 +29,15 @@ inline constexpr const char* kWholeImages = "wisurf";
 
 }  // namespace layers
 
-// Of a layer whose tiles lie along segments.
+// Parameters of a layer whose tiles lie along segments.
 struct LayerParameters {
   LayerItems items = LayerItems::tracklets;
   double tile_length_m = 0;
-  // Of the map's camera: feature scales of another compare only after scaling by their ratio.
+  // Of the map's camera: feature scales of another camera must be scaled by the ratio of focal
+  // lengths before they are compared.
   double focal_x_px = 0;
   double focal_y_px = 0;
-  std::optional<Codebook> codebook = {};         // of landmarks
+  std::optional<PcaProjection> codebook = {};    // of landmarks
   ScaleModel model = ScaleModel::inverse_scale;  // of tracklets, with or without their observations
   double min_r_squared = 0;                      // ... likewise
 
@@ -46,16 +46,16 @@ struct LayerParameters {
 
 nlohmann::ordered_json to_json(const LayerParameters& parameters);
 
-// What a client needs of it: items, focal lengths, and of landmarks the codebook; keys that it does
-// not know are left alone. Errors: corrupt, without a place.
+// The parameters that a client needs: items, focal lengths, and the codebook of landmarks; unknown
+// keys are ignored. Errors: corrupt, with `where` empty.
 Result<LayerParameters> layer_parameters_from_json(const nlohmann::json& json);
 
-// Of a layer of walls, whose tiles are cells of an area: where they come from. For people; a client
-// needs none of it.
+// The source of a layer of walls, whose tiles are grid cells. Informative: a client needs none of
+// it.
 struct WallLayerParameters {
   struct Orthoimage {
     std::string image;            // the file's name
-    std::vector<int> bands = {};  // shown, from 1
+    std::vector<int> bands = {};  // used, counted from 1
     int alpha_band = 0;           // 0: none
     Bounds bounds = {};
     double metres_per_pixel = 0;
@@ -72,7 +72,7 @@ struct WallLayerParameters {
 
 nlohmann::ordered_json to_json(const WallLayerParameters& parameters);
 
-// What the tiles of a layer hold, as its parameters name it; empty where they do not.
+// The items that a layer's parameters name; empty if they name none.
 std::string items_named_in(const nlohmann::json& parameters);
 inline constexpr const char* kWallItems = "walls";
 

@@ -1,4 +1,4 @@
-// The observations that a tracklet is made of, and tiles that keep them all.
+// The observations of a tracklet, and tiles that store all of them.
 // The tracklet paper, section 3.1.1, Eq. 1.
 #pragma once
 
@@ -19,7 +19,7 @@ struct Observation {
   double along_m = 0;     // l_m
 };
 
-// The paper's T, Eq. 1: observations in consecutive frames, in the order they were driven.
+// The paper's T, Eq. 1: observations in consecutive frames, in driving order.
 using Track = std::vector<Observation>;
 
 struct ObservedTracklet {
@@ -27,7 +27,7 @@ struct ObservedTracklet {
   Track track;
 };
 
-// Sets what a tracklet keeps of its observations beside the regression: mean descriptor, ranges and
+// Sets the fields of a tracklet that do not come from the regression: mean descriptor, ranges and
 // count. REQUIRES: a track that is not empty.
 void set_from_track(const Track& track, Tracklet& tracklet);
 

@@ -9,8 +9,8 @@
 namespace milepost {
 namespace {
 
-constexpr const char* kWrongTable =
-    "the content is no verified FlatBuffer with the identifier MPO1";
+constexpr const char* kNotObservations =
+    "the content is not a valid FlatBuffer with the identifier MPO1";
 
 double smallest_along_m(const ObservationTile& tile) {
   if (tile.tracklets.empty()) return 0;
@@ -38,7 +38,7 @@ flatbuffers::Offset<fbs::ObservationTile> build_table(flatbuffers::FlatBufferBui
   };
   const auto& tracklets = tile.tracklets;
   const Track all = observations_of(tile);
-  // Named one by one: as arguments of one call their order in the bytes would be the compiler's.
+  // Separate statements: the order of evaluation of arguments, and so of the bytes, is unspecified.
   const auto segment = builder.CreateString(tile.segment);
   const auto offset = floats(tracklets, [&](auto& t) { return relative(t.tracklet.offset_m); });
   const auto slope =
@@ -61,7 +61,7 @@ Status check_arrays(const fbs::ObservationTile& table, const std::string& where)
   const std::size_t count = table.slope()->size();
   if (count > kMaxTrackletsPerTile) return broken_tile(where, "more than 65536 tracklets", "4.3");
   if (table.descriptor_bytes() != kDescriptorBytes) {
-    return broken_tile(where, "a descriptor is not of 128 bytes", "4.4");
+    return broken_tile(where, "a descriptor does not have 128 bytes", "4.4");
   }
   const Status of_tracklets = check_lengths(where, {"slope", count},
                                             {{"offset_m", table.offset_m()->size()},
@@ -103,10 +103,10 @@ Status check_track(const Track& track, const std::string& where) {
       return broken_tile(where, "a scale is not finite and above 0", "4.5");
     }
     if (!(std::abs(track[m].along_m) <= kMaxAlongM)) {
-      return broken_tile(where, "the along of an observation is not one", "4.5");
+      return broken_tile(where, "along_m of an observation is out of range", "4.5");
     }
     if (m > 0 && !(track[m - 1].along_m < track[m].along_m)) {
-      return broken_tile(where, "the alongs of the observations do not ascend", "4.5");
+      return broken_tile(where, "along_m of the observations does not ascend", "4.5");
     }
   }
   return ok_status();
@@ -144,7 +144,7 @@ Bytes table_from_observations(const ObservationTile& tile) {
 Result<ObservationTile> observations_from_table(ByteView bytes) {
   flatbuffers::Verifier verifier(bytes.data(), bytes.size());
   if (!fbs::VerifySizePrefixedObservationTileBuffer(verifier))
-    return broken_tile("tile", kWrongTable, "4.2");
+    return broken_tile("tile", kNotObservations, "4.2");
   const fbs::ObservationTile& table = *fbs::GetSizePrefixedObservationTile(bytes.data());
   Status status = check_head(table.segment()->string_view(), table.origin_m());
   if (status.ok()) status = check_model(static_cast<std::uint8_t>(table.model()));

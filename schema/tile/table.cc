@@ -8,8 +8,8 @@
 namespace milepost {
 namespace {
 
-constexpr const char* kWrongTable =
-    "the content is no verified FlatBuffer with the identifier MPT1";
+constexpr const char* kNotTracklets =
+    "the content is not a valid FlatBuffer with the identifier MPT1";
 
 double smallest_along_m(const TrackletTile& tile) {
   return tile.tracklets.empty() ? 0 : tile.along().from_m;
@@ -25,7 +25,7 @@ flatbuffers::Offset<fbs::TrackletTile> build_table(flatbuffers::FlatBufferBuilde
   const auto shorts = [&](auto value_of) {
     return builder.CreateVector(column<std::uint16_t>(tile.tracklets, value_of));
   };
-  // Named one by one: as arguments of one call their order in the bytes would be the compiler's.
+  // Separate statements: the order of evaluation of arguments, and so of the bytes, is unspecified.
   const auto segment = builder.CreateString(tile.segment);
   const auto bytes = builder.CreateVector(descriptor_column(
       tile.tracklets, [](auto& t) -> auto& { return t.descriptor; }));
@@ -48,12 +48,12 @@ flatbuffers::Offset<fbs::TrackletTile> build_table(flatbuffers::FlatBufferBuilde
       y_max, r_squared, sigma, observations);
 }
 
-// Whether every array has a value for each tracklet, no more and no fewer.
+// Checks that every array has exactly one value per tracklet.
 Status check_arrays(const fbs::TrackletTile& table, const std::string& where) {
   const std::size_t count = table.slope()->size();
   if (count > kMaxTrackletsPerTile) return broken_tile(where, "more than 65536 tracklets", "3.5");
   if (table.descriptor_bytes() != kDescriptorBytes) {
-    return broken_tile(where, "a descriptor is not of 128 bytes", "3.5");
+    return broken_tile(where, "a descriptor does not have 128 bytes", "3.5");
   }
   const Status lengths = check_lengths(where, {"slope", count},
                                        {
@@ -108,7 +108,7 @@ Bytes table_from_tile(const TrackletTile& tile) {
 Result<TrackletTile> tile_from_table(ByteView bytes) {
   flatbuffers::Verifier verifier(bytes.data(), bytes.size());
   if (!fbs::VerifySizePrefixedTrackletTileBuffer(verifier))
-    return broken_tile("tile", kWrongTable, "3.3");
+    return broken_tile("tile", kNotTracklets, "3.3");
   const fbs::TrackletTile& table = *fbs::GetSizePrefixedTrackletTile(bytes.data());
   Status status = check_head(table.segment()->string_view(), table.origin_m());
   if (status.ok()) status = check_model(static_cast<std::uint8_t>(table.model()));

@@ -16,21 +16,21 @@ inline constexpr std::size_t kMaxTrackletsPerTile = 65536;
 inline constexpr std::size_t kMaxLandmarksPerTile = 65536;
 inline constexpr std::size_t kMaxWallsPerTile = 65536;
 
-// The same tile gives the same bytes. REQUIRES: as encode_tile.
+// Deterministic: equal tiles give equal bytes. REQUIRES: as encode_tile.
 Bytes table_from_tile(const TrackletTile& tile);
 Bytes table_from_observations(const ObservationTile& tile);
-Bytes table_from_frames(const FrameTile& tile);
+Bytes table_from_frames(const ImageDescriptorTile& tile);
 Bytes table_from_landmarks(const LandmarkTile& tile);
 Bytes table_from_walls(const WallTile& tile);
 
-// Where in a table of table_from_landmarks its three arrays of planes begin, ascending.
+// The offsets of the three planar arrays in a table of table_from_landmarks, ascending.
 std::vector<std::size_t> landmark_array_starts(ByteView bytes);
 
-// Never trusts a byte. REQUIRES: the bytes are aligned to 8.
-// Errors: corrupt, naming the paragraph broken.
+// The input is untrusted. REQUIRES: the bytes are aligned to 8.
+// Errors: corrupt, naming the violated paragraph.
 Result<TrackletTile> tile_from_table(ByteView bytes);
 Result<ObservationTile> observations_from_table(ByteView bytes);
-Result<FrameTile> frames_from_table(ByteView bytes);
+Result<ImageDescriptorTile> frames_from_table(ByteView bytes);
 Result<LandmarkTile> landmarks_from_table(ByteView bytes);
 Result<WallTile> walls_from_table(ByteView bytes);
 

@@ -1,6 +1,5 @@
-// A feature scale tracklet, as a map keeps it.
-// The tracklet paper: section 3.1.1, Eq. 1 (what it is made of) and 4.1.1, Eqs 12 to 15 (what is
-// kept).
+// A feature scale tracklet, as stored in a map.
+// The tracklet paper: section 3.1.1, Eq. 1 (observations) and 4.1.1, Eqs 12 to 15 (stored values).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace milepost {
 
-// What the regression takes as its variable: along = offset + slope * f(scale).
+// The variable f of the regression: along_m = offset + slope * f(scale).
 enum class ScaleModel : std::uint8_t {
   scale = 0,  // f(s) = s, the paper's Eq. 2
   inverse_scale =
@@ -32,7 +31,7 @@ struct PixelRange {
 struct Tracklet {
   Descriptor descriptor{};  // mean over the observations, Eq. 15, rounded
   double offset_m = 0;      // regression coefficients, Eq. 2
-  double slope = 0;         // > 0; metres a pixel (scale), metre pixels (inverse scale)
+  double slope = 0;         // > 0; metres per pixel (scale), metre pixels (inverse scale)
   float scale_min_px = 0;   // > 0; SIFT keypoint diameter
   float scale_max_px = 0;
   AlongRange along;                // capture positions of the first and the last observation
@@ -53,7 +52,7 @@ struct TrackletTile {
   ScaleModel model = ScaleModel::inverse_scale;
   std::vector<Tracklet> tracklets;
 
-  // The smallest range that holds every tracklet's along range. REQUIRES: not empty.
+  // The smallest range that contains every tracklet's range. REQUIRES: not empty.
   AlongRange along() const;
 };
 

@@ -10,41 +10,41 @@
 
 namespace milepost {
 
-// Positions are kept in steps of 1e-8 degrees: about a millimetre.
+// Positions are stored in steps of 1e-8 degrees: about a millimetre.
 struct WallEnd {
   double latitude_deg = 0;   // [-90, 90], WGS84
   double longitude_deg = 0;  // [-180, 180], WGS84
 
-  // NOLINTNEXTLINE(modernize-use-nullptr): what clang-tidy makes of any defaulted <=>
+  // NOLINTNEXTLINE(modernize-use-nullptr): false positive for any defaulted <=>
   friend auto operator<=>(const WallEnd&, const WallEnd&) = default;
 };
 
 struct Wall {
-  WallEnd begin, end;    // the interior of a building, where it is known, is on the right
+  WallEnd begin, end;    // the interior of a building, if known, is on the right
   double sigma_m = 0.5;  // of a point's distance from the true wall: (0, 655], steps of 1 cm
 
-  // NOLINTNEXTLINE(modernize-use-nullptr): what clang-tidy makes of any defaulted <=>
+  // NOLINTNEXTLINE(modernize-use-nullptr): false positive for any defaulted <=>
   friend auto operator<=>(const Wall&, const Wall&) = default;
 };
 
-// The walls whose box meets the cell. A wall that crosses a border is whole in each of its cells.
+// The walls whose box intersects the cell. A wall across a border is stored whole in each cell.
 struct WallTile {
   std::uint32_t cell = 0;   // is_cell
   std::vector<Wall> walls;  // ascending
 };
 
-// The box around a wall. REQUIRES: it does not cross longitude 180.
+// The bounding box of a wall. REQUIRES: it does not cross longitude 180.
 Bounds bounds_of(const Wall& wall);
 
-// The wall as it comes back from its bytes.
+// The wall after encoding and decoding.
 Wall quantized(const Wall& wall);
 
-// The tiles of walls, ascending by cell: quantized, sorted, each wall once a cell, those without
-// length left out. REQUIRES: every wall is in range, spans no more than 0.1 degrees and does not
-// cross longitude 180.
+// The tiles of walls, ascending by cell: quantized, sorted, without duplicates in a cell and
+// without walls of zero length. REQUIRES: every wall is in range, spans no more than 0.1 degrees
+// and does not cross longitude 180.
 std::vector<WallTile> tiles_of(const std::vector<Wall>& walls);
 
-// The walls of several tiles, sorted, those in more than one tile once.
+// The walls of several tiles, sorted, without duplicates.
 std::vector<Wall> walls_of(const std::vector<WallTile>& tiles);
 
 }  // namespace milepost

@@ -1,4 +1,4 @@
-// A wall in the steps in which a tile keeps it (FORMAT.md 6.4, 6.5).
+// A wall quantized as stored in a tile (FORMAT.md 6.4, 6.5).
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct WallSteps {
   std::uint16_t sigma_cm = 0;
 };
 
-// The cell's south-west corner, in steps from the equator and the zero meridian.
+// The cell's south-west corner, in steps from the equator and the prime meridian.
 inline std::int64_t corner_north(std::uint32_t cell) {
   return std::int64_t{GridCell::numbered(cell).row} * kStepsPerCell - 90 * kStepsPerDegree;
 }

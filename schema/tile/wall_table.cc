@@ -9,8 +9,7 @@
 namespace milepost {
 namespace {
 
-constexpr const char* kWrongTable =
-    "the content is no verified FlatBuffer with the identifier MPW1";
+constexpr const char* kNotWalls = "the content is not a valid FlatBuffer with the identifier MPW1";
 
 flatbuffers::Offset<fbs::WallTile> build_table(flatbuffers::FlatBufferBuilder& builder,
                                                const WallTile& tile) {
@@ -20,7 +19,7 @@ flatbuffers::Offset<fbs::WallTile> build_table(flatbuffers::FlatBufferBuilder& b
     using Value = std::remove_cvref_t<decltype(value_of_wall(walls.front()))>;
     return builder.CreateVector(column<Value>(walls, value_of_wall));
   };
-  // Named one by one: as arguments of one call their order in the bytes would be the compiler's.
+  // Separate statements: the order of evaluation of arguments, and so of the bytes, is unspecified.
   const auto begin_north = array([](auto& wall) { return wall.begin_north; });
   const auto begin_east = array([](auto& wall) { return wall.begin_east; });
   const auto way_north = array([](auto& wall) { return wall.way_north; });
@@ -41,7 +40,7 @@ Status check_arrays(const fbs::WallTile& table, const std::string& where) {
                        "6.4");
 }
 
-// A wall's steps are bounded before they are added up, and so is every sum.
+// The steps are range-checked before they are added, and so is every sum.
 Status check_wall(const WallSteps& steps, std::uint32_t cell, const std::string& where) {
   for (const std::int64_t way : {steps.way_north, steps.way_east}) {
     if (std::abs(way) > kMaxWallSteps) {
@@ -71,7 +70,7 @@ Bytes table_from_walls(const WallTile& tile) {
 Result<WallTile> walls_from_table(ByteView bytes) {
   flatbuffers::Verifier verifier(bytes.data(), bytes.size());
   if (!fbs::VerifySizePrefixedWallTileBuffer(verifier)) {
-    return broken_tile("cell", kWrongTable, "6.3");
+    return broken_tile("cell", kNotWalls, "6.3");
   }
   const fbs::WallTile& table = *fbs::GetSizePrefixedWallTile(bytes.data());
   const std::string where = "cell " + std::to_string(table.cell());

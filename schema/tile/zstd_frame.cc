@@ -19,10 +19,10 @@ constexpr std::array<std::uint8_t, 4> kMagic = {0x28, 0xB5, 0x2F, 0xFD};
 
 Error broken(const std::string& what) {
   return {ErrorCode::corrupt, "tile", what + " (FORMAT.md 3.2)",
-          "fetch the tile again or replace the map by a good copy"};
+          "fetch the tile again or replace the map with a good copy"};
 }
 
-// Whether the bytes that are there agree with the magic number.
+// Whether the available bytes match the magic number.
 bool starts_as_frame(ByteView stream) {
   const auto length = std::min(stream.size(), kMagic.size());
   return std::equal(kMagic.begin(), kMagic.begin() + static_cast<std::ptrdiff_t>(length),
@@ -32,7 +32,7 @@ bool starts_as_frame(ByteView stream) {
 // Bit 2 of the frame header descriptor, the byte after the magic number (RFC 8878, 3.1.1.1.1).
 bool has_checksum(ByteView frame) { return (frame[kMagic.size()] & 4U) != 0; }
 
-// Checks what the frame header says of the content. REQUIRES: the header is complete.
+// Checks the content size in the frame header. REQUIRES: the header is complete.
 Status check_content_size(ByteView frame) {
   const unsigned long long size = ZSTD_getFrameContentSize(frame.data(), frame.size());
   if (size == ZSTD_CONTENTSIZE_ERROR) return broken("the frame header is damaged");
@@ -60,7 +60,7 @@ Bytes compress_frame(ByteView content, std::span<const std::size_t> cuts) {
   const auto compress_up_to = [&](std::size_t end, ZSTD_EndDirective directive) {
     input.size = end;
     const std::size_t left = ZSTD_compressStream2(context.get(), &output, &input, directive);
-    if (left != 0) throw std::bad_alloc();  // the only way left to fail
+    if (left != 0) throw std::bad_alloc();  // the only remaining failure
   };
   for (const std::size_t cut : cuts) compress_up_to(cut, ZSTD_e_flush);
   compress_up_to(content.size(), ZSTD_e_end);
@@ -82,7 +82,7 @@ Result<std::size_t> frame_length(ByteView stream) {
 Result<Bytes> expand_frame(ByteView frame) {
   const Result<std::size_t> length = frame_length(frame);
   if (!length) return length.error();
-  if (*length == 0) return broken("the frame is cut short");
+  if (*length == 0) return broken("the frame is truncated");
   if (*length < frame.size()) return broken("bytes follow the frame");
   if (!has_checksum(frame)) return broken("the frame has no checksum");
   const Status size = check_content_size(frame);
@@ -92,7 +92,7 @@ Result<Bytes> expand_frame(ByteView frame) {
   const std::size_t expanded =
       ZSTD_decompress(content.data(), content.size(), frame.data(), frame.size());
   if (ZSTD_isError(expanded)) {
-    return broken(std::string("the frame does not expand: ") + ZSTD_getErrorName(expanded));
+    return broken(std::string("the frame cannot be decompressed: ") + ZSTD_getErrorName(expanded));
   }
   if (expanded != content.size()) return broken("the frame holds less than it states");
   return content;

@@ -11,18 +11,18 @@ namespace milepost {
 
 inline constexpr std::size_t kMaxTileContentBytes = std::size_t{16} << 20U;
 
-// One frame with content size and checksum. The same content gives the same bytes. A block ends at
-// each of `cuts`: worth its 50 bytes or so where the values change their distribution, for zstd has
-// one table of codes a block.
+// One frame with content size and checksum. Deterministic. A block ends at each of `cuts`, which
+// costs about 50 bytes and pays where the distribution of values changes, since zstd has one
+// entropy table per block.
 // REQUIRES: content.size() <= kMaxTileContentBytes; cuts ascend and are within the content.
 Bytes compress_frame(ByteView content, std::span<const std::size_t> cuts = {});
 
 // The content of exactly one frame. Allocates no more than kMaxTileContentBytes.
-// Errors: corrupt, naming the paragraph broken.
+// Errors: corrupt, naming the violated paragraph.
 Result<Bytes> expand_frame(ByteView frame);
 
 // The length of the frame at the start of `stream`; 0 if the stream ends inside the frame.
-// Errors: corrupt (no frame, or none that can be a tile's).
+// Errors: corrupt (not a frame, or one that cannot be a tile's).
 Result<std::size_t> frame_length(ByteView stream);
 
 }  // namespace milepost

@@ -13,7 +13,7 @@ namespace milepost::server {
 namespace fs = std::filesystem;
 namespace {
 
-// What lies in a directory and is not hidden, by name.
+// The entries of a directory that are not hidden, sorted by name.
 Result<std::vector<fs::path>> files_of(const fs::path& directory) {
   std::error_code error;
   std::vector<fs::path> files;
@@ -24,11 +24,11 @@ Result<std::vector<fs::path>> files_of(const fs::path& directory) {
   }
   if (error == std::errc::no_such_file_or_directory) {
     return Error{ErrorCode::not_found, directory.string(), "there is no such directory",
-                 "name the directory of the map files"};
+                 "give the directory of the map files"};
   }
   if (error) {
     return Error{ErrorCode::io, directory.string(), "cannot be listed (" + error.message() + ")",
-                 "name a readable directory of map files"};
+                 "give a readable directory of map files"};
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -41,13 +41,13 @@ Document catalog_document(const std::map<std::string, std::shared_ptr<const Serv
   return document_of(json.dump());
 }
 
-// A file that holds a map, or is meant to.
+// A file that is, or by its name should be, a map.
 struct Candidate {
   fs::path file;
   Status content;  // check_map_file
 };
 
-// The one of several files of one name that is served, or null if that is in doubt.
+// The file to serve among several of one map name, or null if that is ambiguous.
 const Candidate* chosen_of(const std::vector<Candidate>& same_name) {
   if (same_name.size() == 1) return &same_name.front();
   const auto found = std::ranges::find_if(
@@ -103,8 +103,7 @@ class Opening {
     return ok_status();
   }
 
-  // The file gives way to the chosen one; where none is, it and the others of its name are in
-  // doubt.
+  // The error of a file that is not served because of others with the same map name.
   static Status refused(const std::string& name, const Candidate& candidate,
                         const std::vector<Candidate>& same_name, const Candidate* chosen) {
     if (!candidate.content) return candidate.content;
@@ -132,7 +131,7 @@ Result<std::shared_ptr<const Catalog>> Catalog::open(const fs::path& directory, 
   if (opening.maps.empty() && !left_out.empty()) {
     return Error{ErrorCode::corrupt, directory.string(),
                  "none of its " + std::to_string(left_out.size()) + " maps can be served",
-                 "the lines before this one say why"};
+                 "see the lines before this one"};
   }
   const std::shared_ptr<Catalog> catalog(new Catalog);
   catalog->maps_ = std::move(opening.maps);

@@ -1,4 +1,4 @@
-// The maps of a directory, as requests see them.
+// The maps of a directory, for the handling of requests.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@ class Catalog {
   using Warn = std::function<void(const std::string& line)>;
 
   // Opens every map among the directory's files that are not hidden; a map's name is the stem of
-  // its file (map_file.h). What cannot be served is left out with a line for `warn` that says why,
-  // and the rest is served. Of files that give the same name the one that ends in ".map" is served,
-  // or none. Errors: not_found or io (directory); when there are maps and none can be served, why.
+  // its file (map_file.h). Files that cannot be served are skipped with a message to `warn`. Of
+  // files with the same map name the one that ends in ".map" is served, or none. Errors: not_found
+  // or io (directory); if there are maps and none can be served, the reason.
   static Result<std::shared_ptr<const Catalog>> open(const std::filesystem::path& directory,
                                                      unsigned readers, const Warn& warn);
 
   const std::map<std::string, std::shared_ptr<const ServedMap>>& maps() const { return maps_; }
   const Document& document() const { return document_; }  // of GET /v1/maps
-  // Files that hold a map, or are named ".map", and are not served.
+  // Files that hold a map, or are named ".map", but are not served.
   std::size_t left_out() const { return left_out_; }
 
  private:

@@ -1,4 +1,4 @@
-// A JSON document that is built once and sent many times.
+// A JSON document that is serialized once and sent many times.
 #pragma once
 
 #include <memory>

@@ -9,10 +9,10 @@ using Json = nlohmann::ordered_json;
 
 Result<Json> parsed_object(const std::string& text, const std::string& where) {
   Result<Json> json = read_ordered_json(text);
-  if (!json) return Error{ErrorCode::corrupt, where, json.error().what, "build the map anew"};
+  if (!json) return Error{ErrorCode::corrupt, where, json.error().what, "rebuild the map"};
   if (json->is_object()) return json;
-  return Error{ErrorCode::corrupt, where, "the parameters are no JSON object",
-               "build the map anew"};
+  return Error{ErrorCode::corrupt, where, "the parameters are not a JSON object",
+               "rebuild the map"};
 }
 
 Json bounds_json(const Bounds& bounds) {

@@ -25,7 +25,7 @@ namespace {
 constexpr std::string_view kSqliteMagic("SQLite format 3\0", 16);
 constexpr std::size_t kSqliteHeaderBytes = 100;
 constexpr std::size_t kPageBytesAt = 16;  // two bytes; 1 stands for 65536
-constexpr std::size_t kChangesAt = 24;    // four bytes, as all below
+constexpr std::size_t kChangesAt = 24;    // four bytes, like all below
 constexpr std::size_t kPagesAt = 28;
 constexpr std::size_t kApplicationIdAt = 68;
 constexpr std::size_t kPagesValidForAt = 92;  // the number of changes that kPagesAt belongs to
@@ -65,8 +65,8 @@ Status check_kind(const fs::path& file) {
       return unreadable(file, "reached", error.message());
   }
   const fs::path target = fs::read_symlink(file, error);
-  const std::string what = error ? "does not exist any more"
-                                 : "is a link to " + target.string() + ", which does not exist";
+  const std::string what =
+      error ? "no longer exists" : "is a link to " + target.string() + ", which does not exist";
   return Error{ErrorCode::not_found, file.string(), what, "correct or remove the link"};
 }
 
@@ -84,7 +84,7 @@ struct FileHead {
 };
 
 Result<FileHead> read_head(const fs::path& file) {
-  // Without waiting, should it have become a FIFO meanwhile.
+  // O_NONBLOCK in case it has become a FIFO meanwhile.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (descriptor < 0) return unreadable(file, "opened", reason(errno));
   FileHead head;
@@ -98,8 +98,8 @@ Result<FileHead> read_head(const fs::path& file) {
   return head;
 }
 
-// The length that the header promises, or 0 if it promises none: an old SQLite wrote it, or it is
-// damaged, and SQLite says so better.
+// The file length that the header states, or 0 if it states none: an old SQLite wrote it, or it is
+// damaged, which SQLite reports in more detail.
 std::uint64_t promised_bytes(const FileHead& head) {
   const std::uint64_t stored = head.number(kPageBytesAt, 2);
   const std::uint64_t page_bytes = stored == 1 ? 65536 : stored;
@@ -108,12 +108,12 @@ std::uint64_t promised_bytes(const FileHead& head) {
   return page_bytes * head.number(kPagesAt, 4);
 }
 
-// Whether all pages are there that the header promises.
+// Checks that the file holds all pages that the header states.
 Status check_length(const fs::path& file, const FileHead& head) {
   const bool has_header = head.read == head.bytes.size();
   const std::uint64_t promised = has_header ? promised_bytes(head) : 0;
   if (has_header && head.file_bytes >= promised) return ok_status();
-  std::string what = "is cut off: it has " + std::to_string(head.file_bytes) + " bytes";
+  std::string what = "is truncated: it has " + std::to_string(head.file_bytes) + " bytes";
   if (has_header) what += " of " + std::to_string(promised);
   return half_copied(file, what);
 }
@@ -124,7 +124,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-// The parts of "town.map.bak" after the first dot that follows something.
+// The lower-case extensions of "town.map.bak": all parts after a dot, except a leading one.
 std::vector<std::string> extensions_of(const std::string& name) {
   std::vector<std::string> parts;
   for (std::size_t dot = name.find('.', 1); dot != std::string::npos;) {
@@ -136,7 +136,7 @@ std::vector<std::string> extensions_of(const std::string& name) {
 }
 
 // Whether something follows the extension of a database, as in "town.map.bak" and "town.db-old", or
-// the extension is one that programs give to copies and to what they are still writing.
+// the extension is one that programs give to copies and to partial files.
 bool is_copy_or_part(const std::string& file_name) {
   static constexpr std::array<std::string_view, 5> kDatabase = {"map", "db", "db3", "sqlite",
                                                                 "sqlite3"};
@@ -172,12 +172,12 @@ Status check_map_file(const fs::path& file) {
                  "copy the map again, or remove the file"};
   }
   if (!head->text().starts_with(kSqliteMagic)) {
-    return no_map(file, "is no milepost map and is skipped (it is no SQLite file)");
+    return no_map(file, "is not a milepost map and is skipped (it is not an SQLite file)");
   }
   const Status length = check_length(file, *head);
   if (head->number(kApplicationIdAt, 4) == kMapApplicationId) return length;
   if (head->read < head->bytes.size()) return length;
-  return no_map(file, "is no milepost map and is skipped (it is another program's SQLite file)");
+  return no_map(file, "is not a milepost map and is skipped (it is another program's SQLite file)");
 }
 
 bool is_named_as_map(const fs::path& file) {
@@ -192,7 +192,7 @@ Result<std::string> map_name_of(const fs::path& file) {
   }
   if (is_segment_id(name)) return name;
   return Error{ErrorCode::invalid_input, file.string(),
-               "the map's name '" + name + "' cannot stand in a URL",
+               "the map's name '" + name + "' cannot be used in a URL",
                "rename the file with 1 to 64 of A-Z a-z 0-9 . _ -"};
 }
 

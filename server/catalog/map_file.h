@@ -1,4 +1,4 @@
-// What lies in a directory of maps: which of it is a map, and under which name it is served.
+// Which files of a directory are maps, and under which names they are served.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 namespace milepost::server {
 
-// Whether the file is a map by its kind, its length and its first bytes. Never waits for a FIFO or
-// a device. Errors, with the reason why it is none: invalid_input (something else: a directory, a
-// text), corrupt (empty or cut off), not_found (a link to nowhere), io.
+// Whether the file is a map by its type, its length and its first bytes. Never blocks on a FIFO or
+// a device. Errors, with the reason: invalid_input (something else: a directory, a text; empty),
+// corrupt (truncated), not_found (a dangling link), io.
 Status check_map_file(const std::filesystem::path& file);
 
-// Whether the file is meant to be a map by its name.
+// Whether the file is named as a map.
 bool is_named_as_map(const std::filesystem::path& file);
 
 // The name under which a map file is served: its name without the extension. Errors: invalid_input
-// (it cannot stand in a URL, or it is that of a copy or a part: "town.map.bak", "town.map~").
+// (not usable in a URL, or the name of a copy or a partial file: "town.map.bak", "town.map~").
 Result<std::string> map_name_of(const std::filesystem::path& file);
 
 }  // namespace milepost::server

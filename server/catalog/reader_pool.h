@@ -1,4 +1,4 @@
-// Readers of one map, so that several threads can read it at once.
+// A pool of readers of one map, for concurrent reads.
 #pragma once
 
 #include <condition_variable>
@@ -15,7 +15,7 @@ namespace milepost::server {
 // Safe to use from several threads at once.
 class ReaderPool {
  public:
-  // A reader for one thread; it goes back to the pool when the lease ends.
+  // A reader for one thread; it is returned to the pool when the lease ends.
   class Lease {
    public:
     Lease(ReaderPool& pool, MapReader* reader) : pool_(pool), reader_(reader) {}
@@ -35,7 +35,7 @@ class ReaderPool {
   static Result<std::unique_ptr<ReaderPool>> open(const std::filesystem::path& file,
                                                   unsigned count);
 
-  // Waits while all readers are lent.
+  // Blocks while all readers are lent.
   Lease lend();
 
  private:

@@ -14,11 +14,11 @@ Result<RouteLine> line_of(const StoredSegment& segment) {
   return RouteLine::from_vertices(std::move(points));
 }
 
-// The store has checked the digest. The length was promised to the client before.
+// The store has checked the digest. The length was sent to the client before.
 Result<Bytes> of_length(Result<Bytes> tile, std::uint64_t bytes, const std::string& where) {
   if (!tile || tile->size() == bytes) return tile;
   return Error{ErrorCode::corrupt, where, "the length is not the one in the index",
-               "replace the file by a good copy, or build the map anew"};
+               "replace the file with a good copy, or rebuild the map"};
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ Status ServedMap::load_segment(const MapReader& reader, const std::string& id) {
   Result<RouteLine> line = line_of(*stored);
   if (!line) {
     return Error{ErrorCode::corrupt, file_.string() + ", segment " + id, line.error().what,
-                 "build the map anew"};
+                 "rebuild the map"};
   }
   std::map<std::string, std::vector<TileEntry>> tiles;
   for (const auto& [layer, parameters] : layers_) {

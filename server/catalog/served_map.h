@@ -1,4 +1,4 @@
-// One map as requests need it: lines, documents and the indices in memory, tiles on the disk.
+// One map that is served: lines, documents and indices in memory, tiles on the disk.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct ServedSegment {
 // Immutable, so safe to share between threads.
 class ServedMap {
  public:
-  // Opens `readers` readers, one for each thread that will ask for tiles.
+  // Opens `readers` readers, one for each thread that reads tiles.
   // Errors: those of MapReader.
   static Result<std::shared_ptr<const ServedMap>> open(const std::string& name,
                                                        const std::filesystem::path& file,

@@ -1,4 +1,4 @@
-// Asio as the server uses it: coroutines that are told of errors by value.
+// Asio as the server uses it: coroutines that receive errors by value.
 #pragma once
 
 // Boost 1.74's awaitable.hpp uses std::exchange without including it.
@@ -14,7 +14,7 @@ namespace milepost::server {
 
 namespace net = boost::asio;
 
-// A completion token: co_await gives the result, and the error goes into `error`.
+// A completion token: co_await returns the result and sets `error`.
 inline auto awaited(error_code& error) { return net::redirect_error(net::use_awaitable, error); }
 
 }  // namespace milepost::server

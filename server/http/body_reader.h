@@ -1,4 +1,4 @@
-// The body of an answer, piece by piece: memory holds one tile or cell at a time.
+// The body of a response, piece by piece: memory holds one tile or cell at a time.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace milepost::server {
 
 class BodyReader {
  public:
-  // Reads nothing if the client wants no body. `response` must outlive the reader.
+  // Reads nothing if the client does not want a body. `response` must outlive the reader.
   BodyReader(const Response& response, bool wanted);
 
   bool done() const { return given_ == pieces_; }

@@ -1,4 +1,4 @@
-// How Asio and Beast tell of errors by value.
+// The error type of Asio and Beast.
 #pragma once
 
 #include <boost/system/error_code.hpp>

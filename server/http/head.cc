@@ -30,7 +30,7 @@ std::string http_date() {
   std::tm utc{};
   gmtime_r(&now, &utc);
   std::array<char, 64> text{};
-  // The program never leaves the "C" locale, so the names are the English ones that HTTP wants.
+  // The program always uses the "C" locale, so the names are in English, as HTTP requires.
   const std::size_t length = std::strftime(text.data(), text.size(), "%a, %d %b %Y %T GMT", &utc);
   return {text.data(), length};
 }

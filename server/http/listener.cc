@@ -17,8 +17,8 @@ namespace {
 using Tcp = net::ip::tcp;
 
 constexpr std::chrono::milliseconds kPauseAfterError{100};
-// So many connections beyond the limit are told 503; further ones are closed without a word.
-constexpr std::size_t kTurnedAway = 64;
+// Connections beyond the limit that are answered with 503; further ones are closed silently.
+constexpr std::size_t kRejected = 64;
 
 }  // namespace
 
@@ -51,7 +51,7 @@ void Listener::start() {
 
 void Listener::close() {
   net::post(acceptor_.get_executor(), [self = shared_from_this()] {
-    error_code ignored;  // the socket is gone in any case
+    error_code ignored;  // the socket is closed in any case
     self->acceptor_.close(ignored);
     self->pause_.cancel();
   });
@@ -64,8 +64,8 @@ net::awaitable<void> Listener::run() {
     Tcp::socket socket = co_await acceptor_.async_accept(strand, awaited(error));
     if (!error) {
       welcome(std::move(socket));
-    } else if (acceptor_.is_open()) {  // out of file descriptors, say: that passes
-      spdlog::warn("a connection cannot be accepted ({}); accepting goes on", error.message());
+    } else if (acceptor_.is_open()) {  // transient, such as no free file descriptors
+      spdlog::warn("a connection cannot be accepted ({}); accepting continues", error.message());
       pause_.expires_after(kPauseAfterError);
       co_await pause_.async_wait(awaited(error));
     }
@@ -74,13 +74,13 @@ net::awaitable<void> Listener::run() {
 
 void Listener::welcome(Tcp::socket socket) {
   const std::size_t open = sessions_.count();
-  if (open >= limits_.connections + kTurnedAway) {
+  if (open >= limits_.connections + kRejected) {
     spdlog::warn("a connection is closed: {} are open", open);
     return;
   }
   const bool serve = open < limits_.connections;
-  if (!serve) spdlog::warn("a connection is turned away: {} are open", open);
-  const auto service = serve ? Session::Service::serve : Session::Service::turn_away;
+  if (!serve) spdlog::warn("a connection is rejected: {} are open", open);
+  const auto service = serve ? Session::Service::serve : Session::Service::reject;
   std::make_shared<Session>(std::move(socket), service, catalog_, limits_, sessions_)->start();
 }
 

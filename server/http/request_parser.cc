@@ -37,7 +37,7 @@ bool is_whole_number(boost::beast::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// Why the end of the request's body is in doubt (RFC 9112, section 6), or null.
+// Why the end of the request's body is ambiguous (RFC 9112, section 6), or null.
 const char* fault_of_framing(const Fields& fields) {
   const std::size_t lengths = fields.count(http::field::content_length);
   const std::size_t encodings = fields.count(http::field::transfer_encoding);
@@ -47,7 +47,7 @@ const char* fault_of_framing(const Fields& fields) {
   if (encodings > 1) return kTwoEncodings;
   if (encodings == 0) return nullptr;
   if (fields.version() < 11) {
-    return "HTTP/1.0 knows no Transfer-Encoding; send Content-Length, or HTTP/1.1";
+    return "HTTP/1.0 has no Transfer-Encoding; send Content-Length, or HTTP/1.1";
   }
   return boost::beast::iequals(fields[http::field::transfer_encoding], "chunked")
              ? nullptr
@@ -57,16 +57,16 @@ const char* fault_of_framing(const Fields& fields) {
 const char* fault_of_host(const Fields& fields) {
   const std::size_t hosts = fields.count(http::field::host);
   const bool fits = fields.version() < 11 ? hosts <= 1 : hosts == 1;
-  return fits ? nullptr : "the request needs one Host field; mend the client";
+  return fits ? nullptr : "the request needs one Host field; correct the client";
 }
 
-// What is wrong with bytes that Beast refuses; a field that it refuses is not among `fields`.
+// The message for bytes that Beast rejects; a field that it rejects is not among `fields`.
 std::string fault_of(const error_code& error, const Fields& fields) {
   const bool has_length = fields.count(http::field::content_length) > 0;
   const bool has_encoding = fields.count(http::field::transfer_encoding) > 0;
   if (error == http::error::bad_content_length) return has_encoding ? kTwoFramings : kNoLength;
   if (error == http::error::bad_transfer_encoding) return has_length ? kTwoFramings : kTwoEncodings;
-  return "this is no HTTP/1.1 request (" + error.message() + "); mend the client";
+  return "this is not an HTTP/1.1 request (" + error.message() + "); correct the client";
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ std::size_t RequestParser::take(std::string_view bytes) {
   } else if (error == http::error::header_limit) {
     refuse_long_head(rest);
   } else if (error == http::error::body_limit) {
-    refuse(413, "the request's body is too long; no address of this server takes one");
+    refuse(413, "the request's body is too long; no path of this server takes one");
   } else {
     refuse(400, fault_of(error, parser_.get()));
   }
@@ -106,7 +106,7 @@ void RequestParser::take_head(std::string_view part, const error_code& error) {
   head_bytes_ += part.size();
   folded_ = folded_ || part.find("\r\n ") != std::string_view::npos ||
             part.find("\r\n\t") != std::string_view::npos;
-  // A body that is announced as too long is an error at the end of the header.
+  // A body whose stated length is too long is an error at the end of the header.
   if (parser_.is_header_done() || error == http::error::body_limit) end_head();
 }
 
@@ -114,7 +114,7 @@ void RequestParser::end_head() {
   const Fields& fields = parser_.get();
   if (head_bytes_ > header_limit_) return refuse_long_head({});
   if (folded_) {
-    return refuse(400, "a field of the request's header goes on in a second line; write it in one");
+    return refuse(400, "a field of the request's header continues on a second line; use one");
   }
   if (const char* fault = fault_of_framing(fields)) return refuse(400, fault);
   if (const char* fault = fault_of_host(fields)) return refuse(400, fault);
@@ -124,20 +124,20 @@ void RequestParser::end_head() {
   incoming_.keep_alive = fields.keep_alive();
 }
 
-// `rest`: what is there of the head and could not be taken.
+// `rest`: the bytes of the head that were not taken.
 void RequestParser::refuse_long_head(std::string_view rest) {
   const bool has_first_line =
       !parser_.get().target().empty() || rest.find("\r\n") != std::string_view::npos;
   if (has_first_line) {
     refuse(431, "the request's header is too long; send fewer or shorter fields");
   } else {
-    refuse(414, "the request's first line is too long; shorten the address");
+    refuse(414, "the request's first line is too long; shorten the URL");
   }
 }
 
 void RequestParser::refuse(unsigned status, const std::string& detail) {
   const Fields& fields = parser_.get();
-  // For the log, as far as it was read.
+  // For the log, as far as they were read.
   incoming_.request.method = std::string(fields.method_string());
   incoming_.request.target = std::string(fields.target());
   incoming_.keep_alive = false;

@@ -1,4 +1,4 @@
-// From the bytes of a connection to a request. No socket is needed.
+// Parses requests from the bytes of a connection, without a socket.
 #pragma once
 
 #include <cstddef>
@@ -16,26 +16,26 @@
 
 namespace milepost::server {
 
-// A request, or the answer to bytes that are none.
+// A request, or the response to bytes that are not a request.
 struct Incoming {
   Request request;
   unsigned http_version = 11;       // 10 or 11
   bool keep_alive = false;          // the client may send another request
-  std::optional<Response> refusal;  // after it nothing that follows can be understood
+  std::optional<Response> refusal;  // the bytes after it cannot be interpreted
 };
 
-// Reads one request by the framing of HTTP/1.1 (RFC 9112), and refuses what two readers could
-// understand differently: whoever is in front of the server must find the same end of the request.
-// The body is passed over. Not safe to use from several threads at once.
+// Reads one request by the framing of HTTP/1.1 (RFC 9112), and rejects ambiguous framing: a proxy
+// in front of the server must find the same end of the request (against request smuggling).
+// The body is discarded. Not safe to use from several threads at once.
 class RequestParser {
  public:
   // Uses the limits `header_bytes` and `body_bytes`.
   explicit RequestParser(const ConnectionLimits& limits);
 
-  // Takes bytes from the front and returns how many. Unless done(), the next call begins with those
-  // that were not taken, and has more of them. REQUIRES: not done().
+  // Consumes bytes from the front and returns their number. Unless done(), the next call passes the
+  // remaining bytes again, followed by more. REQUIRES: not done().
   std::size_t take(std::string_view bytes);
-  // The request is whole, or refused.
+  // The request is complete, or rejected.
   bool done() const { return incoming_.refusal.has_value() || parser_.is_done(); }
   // REQUIRES: done().
   const Incoming& incoming() const { return incoming_; }
@@ -51,7 +51,7 @@ class RequestParser {
   Parser parser_;
   std::size_t header_limit_;  // bytes
   std::size_t head_bytes_ = 0;
-  bool folded_ = false;  // a field went on in a second line
+  bool folded_ = false;  // a field continued on a second line
   Incoming incoming_;
 };
 

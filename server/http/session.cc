@@ -17,8 +17,8 @@ namespace milepost::server {
 namespace {
 
 constexpr std::size_t kReadBytes = 4096;
-constexpr std::size_t kWriteBytes = 65536;       // a client has `stall` to take so much
-constexpr std::size_t kLingerBytes = 1'048'576;  // of what a refused client goes on sending
+constexpr std::size_t kWriteBytes = 65536;       // per write; a client has `stall` to take it
+constexpr std::size_t kLingerBytes = 1'048'576;  // discarded at most from a client
 
 std::string_view text_of(const net::const_buffer& buffer) {
   return {static_cast<const char*>(buffer.data()), buffer.size()};
@@ -34,7 +34,7 @@ Session::Session(net::ip::tcp::socket socket, Service service,
       limits_(limits),
       sessions_(sessions),
       stream_(std::move(socket)) {
-  error_code ignored;  // a peer that is gone already has no address
+  error_code ignored;  // a disconnected peer has no address
   peer_ = stream_.socket().remote_endpoint(ignored).address().to_string();
   stream_.socket().set_option(net::ip::tcp::no_delay(true), ignored);
 }
@@ -75,12 +75,12 @@ net::awaitable<void> Session::run() {
     const bool open = co_await answer(*incoming);
     if (!open) break;
   }
-  co_await linger();
+  co_await lingering_close();
 }
 
-// Between requests a client may be silent for longer than within one.
+// Between requests a client may be idle for longer than within one.
 net::awaitable<bool> Session::await_first_byte() {
-  if (buffer_.size() > 0) co_return true;  // the next request came together with the last one
+  if (buffer_.size() > 0) co_return true;  // the next request arrived with the last one
   waiting_ = true;
   stream_.expires_after(limits_.idle);
   const bool more = co_await read_more();
@@ -88,10 +88,10 @@ net::awaitable<bool> Session::await_first_byte() {
   co_return more;
 }
 
-// Null if the connection ended or was too slow: there is nobody to answer.
+// Null if the connection ended or timed out: no response is sent.
 net::awaitable<std::unique_ptr<Incoming>> Session::read_request() {
   RequestParser parser(limits_);
-  stream_.expires_after(limits_.request);  // for all of it, however it drips in
+  stream_.expires_after(limits_.request);  // for the whole request
   while (true) {
     buffer_.consume(parser.take(text_of(buffer_.cdata())));
     if (parser.done()) co_return std::make_unique<Incoming>(parser.incoming());
@@ -100,7 +100,7 @@ net::awaitable<std::unique_ptr<Incoming>> Session::read_request() {
   }
 }
 
-// Some further bytes from the client. False if there are none.
+// Reads more bytes from the client. False if there are none.
 net::awaitable<bool> Session::read_more() {
   error_code error;
   const auto space = buffer_.prepare(kReadBytes);
@@ -110,7 +110,7 @@ net::awaitable<bool> Session::read_more() {
 }
 
 Response Session::response_to(const Incoming& incoming) const {
-  if (service_ == Service::turn_away) {
+  if (service_ == Service::reject) {
     return problem(503, "too many connections are open; try again later");
   }
   if (incoming.refusal) return *incoming.refusal;
@@ -122,14 +122,14 @@ Response Session::response_to(const Incoming& incoming) const {
   }
 }
 
-// Whether the connection can take another request.
+// Returns whether the connection stays open for another request.
 net::awaitable<bool> Session::answer(const Incoming& incoming) {
   const auto begun = std::chrono::steady_clock::now();
   const bool body_wanted = incoming.request.method != "HEAD";
   Response response = response_to(incoming);
   BodyReader body(response, body_wanted);
   Result<ByteView> first = body.next();
-  if (!first) {  // nothing is sent yet, so the client can still be told
+  if (!first) {  // nothing is sent yet, so the status can still be 500
     spdlog::error("{}", first.error().line());
     response = problem(500, "the map cannot be read; the server's log says why");
     body = BodyReader(response, body_wanted);
@@ -141,12 +141,12 @@ net::awaitable<bool> Session::answer(const Incoming& incoming) {
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
   spdlog::info("{} \"{} {}\" {} {} bytes {:.1f} ms{}", peer_, incoming.request.method,
                incoming.request.target, response.status, response.content_length(), took.count(),
-               sent ? "" : ", broken off");
+               sent ? "" : ", aborted");
   co_return sent&& keep_alive;
 }
 
-// False if the answer was broken off; the connection is then closed, so that the client sees that
-// bytes are missing.
+// False if the response was aborted; the connection is then closed, so that the client detects the
+// missing bytes.
 net::awaitable<bool> Session::send(std::string_view head, ByteView first, BodyReader& rest) {
   bool sent = co_await write(head, first);
   while (sent && !rest.done()) {
@@ -174,13 +174,13 @@ net::awaitable<bool> Session::write(std::string_view head, ByteView body) {
   co_return true;
 }
 
-// Closes so that the client gets the last answer even if it is still sending: a socket that is
-// closed with unread bytes is reset, and the answer with it.
-net::awaitable<void> Session::linger() {
+// Closes so that the client receives the last response even if it is still sending: closing a
+// socket with unread bytes resets the connection, which may discard the response.
+net::awaitable<void> Session::lingering_close() {
   error_code error;
   stream_.socket().shutdown(net::ip::tcp::socket::shutdown_send, error);
   waiting_ = true;
-  stream_.expires_after(limits_.linger);
+  stream_.expires_after(limits_.lingering_close);
   std::array<char, kReadBytes> discarded{};
   std::size_t total = 0;
   while (!error && !finishing_ && total < kLingerBytes) {

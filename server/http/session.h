@@ -1,4 +1,4 @@
-// One connection: requests are read and answered one after the other.
+// One connection: handles its requests one after the other.
 #pragma once
 
 #include <memory>
@@ -18,13 +18,13 @@
 
 namespace milepost::server {
 
-// All work of a session runs on the strand of its socket, so its members need no lock.
-// A session keeps itself alive while it runs.
+// A session runs on the strand of its socket, so its members need no lock.
+// It keeps itself alive while it runs.
 class Session : public std::enable_shared_from_this<Session> {
  public:
   enum class Service {
-    serve,      // as usual
-    turn_away,  // the first request is told 503: too many connections are open
+    serve,   // handles requests
+    reject,  // answers the first request with 503: too many connections are open
   };
 
   // `socket` must run on a strand. `sessions` must outlive the session.
@@ -32,7 +32,7 @@ class Session : public std::enable_shared_from_this<Session> {
           const ConnectionLimits& limits, Sessions& sessions);
 
   void start();
-  // May be called from any thread: closes when the answer under way, if any, is sent.
+  // May be called from any thread: closes after the response in progress, if any, is sent.
   void finish();
   // May be called from any thread: closes at once.
   void abort();
@@ -45,7 +45,7 @@ class Session : public std::enable_shared_from_this<Session> {
   net::awaitable<bool> answer(const Incoming& incoming);
   net::awaitable<bool> send(std::string_view head, ByteView first, BodyReader& rest);
   net::awaitable<bool> write(std::string_view head, ByteView body);
-  net::awaitable<void> linger();
+  net::awaitable<void> lingering_close();
   Response response_to(const Incoming& incoming) const;
   void close();
 
@@ -57,7 +57,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer buffer_;
-  bool waiting_ = false;    // for the client, with nothing under way
+  bool waiting_ = false;    // for the client, with no request in progress
   bool finishing_ = false;  // no further request is read
 };
 

@@ -1,4 +1,4 @@
-// The sessions that are open, so that they can be counted and stopped.
+// Registry of open sessions, to count and to stop them.
 #pragma once
 
 #include <chrono>
@@ -20,9 +20,9 @@ class Sessions {
   bool add(const std::shared_ptr<Session>& session);
   void remove(const Session* session);
   std::size_t count() const;
-  // Lets no further session start and gives those that are open.
+  // Prevents further sessions from starting and returns those that are open.
   std::vector<std::shared_ptr<Session>> stop();
-  // Waits until there are none. False if the time ran out before.
+  // Waits until no session is open. False on timeout.
   bool wait_none(std::chrono::milliseconds at_most);
 
  private:

@@ -20,7 +20,7 @@ class WriterSink : public spdlog::sinks::base_sink<std::mutex> {
     formatter_->format(message, line);
     writer_->write({line.data(), line.size()});
   }
-  void flush_() override {}  // the writer writes as soon as it can
+  void flush_() override {}  // the writer writes without delay
 
   std::shared_ptr<LogWriter> writer_;
 };

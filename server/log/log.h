@@ -1,4 +1,4 @@
-// Where the lines of the server's log go.
+// Output of the server's log.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace milepost::server {
 
-// From now on spdlog's default logger writes through `writer`.
+// Makes spdlog's default logger write through `writer`.
 void log_to(std::shared_ptr<LogWriter> writer);
 
 }  // namespace milepost::server

@@ -20,13 +20,13 @@ std::uint64_t lines_in(std::string_view text) {
   return static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-// Waits as long as it takes. Returns what the descriptor refused.
+// Blocks as long as necessary. Returns the rest that the descriptor did not accept.
 std::string_view write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
     if (written >= 0) {
       text.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno == EAGAIN) {  // another process that shares it made it so
+    } else if (errno == EAGAIN) {  // set by another process that shares it
       pollfd ready{descriptor, POLLOUT, 0};
       ::poll(&ready, 1, -1);
     } else if (errno != EINTR) {
@@ -46,20 +46,19 @@ struct LogWriter::State {
 
   mutable std::mutex mutex;
   std::condition_variable changed;
-  std::string waiting;           // guarded by mutex, as all below: whole lines
+  std::string waiting;           // guarded by mutex, like all below: whole lines
   std::uint64_t dropped = 0;     // lines, since the start
-  std::uint64_t unreported = 0;  // those of them that no line of the log speaks of yet
-  bool closed = false;           // no further line is taken
+  std::uint64_t unreported = 0;  // those not yet reported by a line of the log
+  bool closed = false;           // no further line is accepted
   bool ended = false;            // the thread writes nothing more
 
-  // What is written next: the lines that waited, and after them the number of those that are
-  // missing, if any are.
+  // The text to write next: the queued lines, and after them the number of missing lines, if any.
   struct Batch {
     std::string text;
     std::uint64_t reported = 0;  // lines missing
   };
 
-  // Waits for lines. Without text when the writer is closed and none are left.
+  // Waits for lines. Empty if the writer is closed and none are left.
   Batch take() {
     std::unique_lock lock(mutex);
     changed.wait(lock, [this] { return closed || !waiting.empty(); });
@@ -92,8 +91,8 @@ struct LogWriter::State {
 
 LogWriter::LogWriter(int descriptor, std::size_t queue_bytes)
     : state_(std::make_shared<State>(descriptor, queue_bytes)) {
-  // The thread takes no signal: those that stop the program are for others, and a pipe without a
-  // reader is an error of write().
+  // The thread blocks all signals: other threads handle those that stop the program, and a pipe
+  // without a reader is an error of write().
   sigset_t all;
   sigset_t before;
   sigfillset(&all);

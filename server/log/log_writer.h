@@ -1,4 +1,4 @@
-// Writes the log from a thread of its own: whoever has a line to say never waits for its reader.
+// Asynchronous log output: a thread writes the lines, so that callers never block.
 #pragma once
 
 #include <chrono>
@@ -9,29 +9,29 @@
 
 namespace milepost::server {
 
-// A descriptor may block for ever: a pipe that nobody reads, a terminal that is halted, a file
-// system that hangs. Lines wait in a bounded queue meanwhile; those that find it full, and those
-// that the descriptor refuses (a full disk), are dropped and counted, and a line in their place
-// says how many are missing. Safe to use from several threads at once.
+// A descriptor may block for ever: a pipe that nobody reads, a suspended terminal, a hanging file
+// system. Lines wait in a bounded queue; lines that find it full or that the descriptor rejects (a
+// full disk) are dropped and counted, and a line in their place reports their number. Safe to use
+// from several threads at once.
 class LogWriter {
  public:
-  // `descriptor` must stay open until the process ends; it is used as it is, so that its flags,
-  // which other processes share, are not changed. `queue_bytes` is how much may wait.
+  // `descriptor` must stay open until the process ends; its flags, which other processes share, are
+  // not changed. `queue_bytes` is the capacity of the queue.
   explicit LogWriter(int descriptor, std::size_t queue_bytes = 1'048'576);
   ~LogWriter();  // close(), without waiting
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  // Queues a line, which ends in '\n'. Never waits for the descriptor.
+  // Queues a line, which ends in '\n'. Never blocks on the descriptor.
   void write(std::string_view line);
   // Lines dropped so far.
   std::uint64_t dropped() const;
-  // Takes no further line and waits until all that wait are written. False if `at_most` ran out
-  // before: the rest is lost when the process ends.
+  // Stops accepting lines and waits until the queue is written. False on timeout: the rest is lost
+  // when the process ends.
   bool close(std::chrono::milliseconds at_most);
 
  private:
-  struct State;  // shared with the thread, which may be stuck in a write for longer than we live
+  struct State;  // shared with the thread, which may block in a write and outlive this object
   std::shared_ptr<State> state_;
 };
 

@@ -17,11 +17,11 @@ std::string entity_tag(const std::string& digest) { return '"' + digest + '"'; }
 
 bool names_tag(std::string_view if_none_match, std::string_view tag) {
   if (trimmed(if_none_match) == "*") return true;
-  // Our tags hold no comma, so a plain cut at the commas will do.
+  // Our tags contain no comma, so splitting at commas is sufficient.
   while (!if_none_match.empty()) {
     const std::size_t comma = std::min(if_none_match.find(','), if_none_match.size());
     std::string_view candidate = trimmed(if_none_match.substr(0, comma));
-    if (candidate.starts_with("W/")) candidate.remove_prefix(2);  // the comparison is the weak one
+    if (candidate.starts_with("W/")) candidate.remove_prefix(2);  // weak comparison
     if (candidate == tag) return true;
     if_none_match.remove_prefix(std::min(comma + 1, if_none_match.size()));
   }

@@ -14,7 +14,7 @@ std::string entity_tag(const std::string& digest);
 // Whether an If-None-Match field, empty if absent, names `tag`.
 bool names_tag(std::string_view if_none_match, std::string_view tag);
 
-// The answer itself, or 304 if the client has it already.
+// The response itself, or 304 if the client already has it.
 Response unless_known(Response response, std::string_view if_none_match);
 
 }  // namespace milepost::server

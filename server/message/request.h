@@ -1,4 +1,4 @@
-// What a client asked for, as values.
+// A client's request.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 namespace milepost::server {
 
 struct Request {
-  std::string method;         // as it came: "GET"
-  std::string target;         // as it came: path and query, percent-encoded
+  std::string method;         // as received: "GET"
+  std::string target;         // as received: path and query, percent-encoded
   std::string if_none_match;  // the field's value, empty if absent
 };
 

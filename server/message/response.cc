@@ -80,7 +80,7 @@ Response problem(unsigned status, const std::string& detail) {
   response.status = status;
   response.headers = {{"Content-Type", "application/problem+json"}, {"Cache-Control", "no-store"}};
   if (status == 503) response.headers.emplace_back("Retry-After", "1");
-  // The detail may quote bytes of the request that are no UTF-8.
+  // The detail may quote bytes of the request that are not valid UTF-8.
   response.body = shared_text(
       json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   return response;

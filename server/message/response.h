@@ -1,4 +1,4 @@
-// What a client is told, as values: nothing here knows a socket.
+// A response to a client, independent of sockets.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace milepost::server {
 
 using SharedText = std::shared_ptr<const std::string>;
 
-// Stored tiles of one layer of one segment, to be sent one after the other as they lie in the map.
+// Stored tiles of one layer of one segment, to be sent one after the other as stored in the map.
 // Keeps the map alive; the tiles' bytes are read only while they are sent.
 struct TileList {
   std::shared_ptr<const ServedMap> map;
@@ -25,7 +25,7 @@ struct TileList {
   std::vector<const TileEntry*> tiles;  // entries of `map`, ascending by index
 };
 
-// The same of stored cells of one layer.
+// The same for stored cells of one layer.
 struct CellList {
   std::shared_ptr<const ServedMap> map;
   std::string layer;
@@ -37,7 +37,7 @@ struct Response {
   std::vector<std::pair<std::string, std::string>> headers;  // without Content-Length
   std::variant<SharedText, TileList, CellList> body;         // a null text is an empty body
 
-  // The value of a header, empty if absent. `name` as it was added.
+  // The value of a header, empty if absent. `name` is spelled as when it was added.
   std::string_view header(std::string_view name) const;
   // Bytes of the body, known before any tile is read.
   std::uint64_t content_length() const;
@@ -45,9 +45,9 @@ struct Response {
 
 SharedText shared_text(std::string text);
 
-// An application/problem+json answer: `status` and what is wrong and what would be right.
+// An application/problem+json response: `status`, and what is wrong and how to correct it.
 Response problem(unsigned status, const std::string& detail);
-// The same for an error value: 400, 404, 410, 503 or 500 by its code.
+// The same for an Error: 400, 404, 410, 503 or 500 by its code.
 Response problem(const Error& error);
 
 }  // namespace milepost::server

@@ -7,8 +7,8 @@
 namespace milepost::server {
 namespace {
 
-Error wrong(const std::string& where, const std::string& what, const std::string& mend) {
-  return {ErrorCode::invalid_input, where, what, mend};
+Error wrong(const std::string& where, const std::string& what, const std::string& hint) {
+  return {ErrorCode::invalid_input, where, what, hint};
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -39,7 +39,7 @@ Result<std::string> percent_decoded(std::string_view text, const std::string& wh
     if (c == '%') {
       const int byte = escaped_byte(text);
       if (byte < 0) {
-        return wrong(where, "'" + std::string(text.substr(0, 3)) + "' is no percent-encoding",
+        return wrong(where, "'" + std::string(text.substr(0, 3)) + "' is not a percent-encoding",
                      "write % and two hexadecimal digits, and %25 for the sign itself");
       }
       c = static_cast<char>(byte);
@@ -52,7 +52,7 @@ Result<std::string> percent_decoded(std::string_view text, const std::string& wh
   return decoded;
 }
 
-// Cuts "http://host" off the absolute form.
+// Removes "http://host" from the absolute form.
 std::string_view origin_form(std::string_view target) {
   const std::size_t scheme = target.find("://");
   if (target.starts_with('/') || scheme == std::string_view::npos) return target;
@@ -62,7 +62,7 @@ std::string_view origin_form(std::string_view target) {
 
 Result<std::vector<std::string>> parse_path(std::string_view path) {
   if (!path.starts_with('/')) {
-    return wrong("path", "does not start with '/'", "ask for a path such as /v1/maps");
+    return wrong("path", "does not start with '/'", "request a path such as /v1/maps");
   }
   std::vector<std::string> segments;
   for (const std::string_view part : split(path.substr(1), '/')) {
@@ -100,7 +100,7 @@ Status Query::allow_only(const std::vector<std::string_view>& names) const {
       std::string known;
       for (const std::string_view n : names) known.append(known.empty() ? "" : ", ").append(n);
       return wrong("parameter '" + name + "'", "is unknown here",
-                   known.empty() ? "this address takes no parameters" : "known are " + known);
+                   known.empty() ? "this path takes no parameters" : "known are " + known);
     }
     const auto same = [&name](const auto& other) { return other.first == name; };
     if (std::any_of(std::next(pair), pairs_.end(), same)) {

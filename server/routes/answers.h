@@ -1,4 +1,4 @@
-// Successful answers with their caching rules.
+// Successful responses with their caching rules.
 #pragma once
 
 #include <string>
@@ -12,16 +12,16 @@ namespace milepost::server {
 
 // Plain text that is not cached.
 Response plain_text(std::string text);
-// Text that may change at any time: a cache asks each time whether its copy still holds.
+// Text that may change at any time: a cache must revalidate its copy each time.
 Response current_text(const Document& document, const char* content_type);
 Response current_json(const Document& document);
-// JSON that never changes under its address.
+// JSON that never changes under its URL.
 Response immutable_json(const Document& document);
-// Stored tiles or cells, which never change under their address. `digest` stands for all of them.
+// Stored tiles or cells, which never change under their URL. `digest` covers all of them.
 Response immutable_tiles(TileList tiles, const std::string& digest);
 Response immutable_cells(CellList cells, const std::string& digest);
 
-// The digest that stands for entries of an index.
+// The digest that covers entries of an index.
 template <class Entry>
 std::string digest_of_all(const std::vector<const Entry*>& entries) {
   FieldDigest digest;

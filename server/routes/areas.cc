@@ -1,6 +1,6 @@
-// Routes to stored cells: those of a box, or one.
+// Routes to stored cells: those that intersect a box, or one.
 #include "server/routes/answers.h"
-#include "server/routes/find.h"
+#include "server/routes/lookup.h"
 #include "server/routes/routes.h"
 
 namespace milepost::server {
@@ -34,7 +34,7 @@ Result<Bounds> box_of(const Query& query) {
     return Error{ErrorCode::invalid_input, "parameter bbox", "south is greater than north", kForm};
   }
   if (!box.is_valid()) {
-    return Error{ErrorCode::invalid_input, "parameter bbox", "lies outside the Earth's degrees",
+    return Error{ErrorCode::invalid_input, "parameter bbox", "is out of range",
                  "write longitudes in [-180, 180] and latitudes in [-90, 90]"};
   }
   return box;

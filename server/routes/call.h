@@ -1,4 +1,4 @@
-// What a route gets: the catalog, the values in the path's braces, the query.
+// The arguments of a route: the catalog, the values in the path's braces, the query.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace milepost::server {
 struct Call {
   const Catalog& catalog;
   std::vector<std::string> path;  // the values of {braces}, in the pattern's order
-  const Query& query;             // holds no parameter but the route's, and none twice
+  const Query& query;             // only parameters of the route, none repeated
 };
 
 }  // namespace milepost::server

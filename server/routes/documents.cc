@@ -1,6 +1,6 @@
-// Routes whose documents the catalog holds ready.
+// Routes to the prepared documents of the catalog.
 #include "server/routes/answers.h"
-#include "server/routes/find.h"
+#include "server/routes/lookup.h"
 #include "server/routes/routes.h"
 
 namespace milepost::server {

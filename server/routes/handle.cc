@@ -37,7 +37,7 @@ const std::vector<Route>& routes() {
   return table;
 }
 
-// The values of the pattern's {braces} if the path fits it.
+// The values of the pattern's {braces} if the path matches it.
 std::optional<std::vector<std::string>> fit(std::string_view pattern,
                                             const std::vector<std::string>& path) {
   std::vector<std::string> values;
@@ -76,8 +76,8 @@ Response answer(const Route& route, const Request& request, const Call& call) {
 
 Response handle(const Request& request, const Catalog& catalog) {
   if (request.target.size() > kMaxTargetBytes) {
-    return problem(414, "the address is longer than " + std::to_string(kMaxTargetBytes) +
-                            " bytes; no address of this server is");
+    return problem(414, "the URL is longer than " + std::to_string(kMaxTargetBytes) +
+                            " bytes; no URL of this server is");
   }
   const Result<Target> target = Target::parse(request.target);
   if (!target) return problem(target.error());

@@ -1,4 +1,4 @@
-// The whole of the server's behaviour as a function of values: no sockets, no clock, no state.
+// Request handling as a pure function: no sockets, no clock, no state.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ namespace milepost::server {
 // A longer target is answered with 414.
 inline constexpr std::size_t kMaxTargetBytes = 4096;
 
-// The answer to a request (PROTOCOL.md). HEAD gets the answer of GET; whoever sends it leaves the
-// body out. Safe to call from several threads at once. The answer keeps alive what it refers to.
+// The response to a request (PROTOCOL.md). HEAD gets the response to GET; the sender omits the
+// body. Safe to call from several threads at once. The response keeps alive what it refers to.
 Response handle(const Request& request, const Catalog& catalog);
 
-// The paths that are answered, as in openapi.yaml: "/v1/maps/{map}".
+// The paths of all routes, as in openapi.yaml: "/v1/maps/{map}".
 std::vector<std::string_view> path_patterns();
 
 }  // namespace milepost::server

@@ -1,4 +1,4 @@
-// schema/openapi.yaml, as it was when the server was built.
+// schema/openapi.yaml, embedded when the server was built.
 #pragma once
 
 #include <string_view>

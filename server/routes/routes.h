@@ -1,4 +1,4 @@
-// The routes, one function each. All are pure; errors become problem answers by their code.
+// The routes, one function each. All are pure; errors become problem responses by their code.
 #pragma once
 
 #include "server/message/response.h"
@@ -12,11 +12,11 @@ Result<Response> answer_openapi(const Call& call);        // /openapi.yaml
 Result<Response> answer_maps(const Call& call);           // /v1/maps
 Result<Response> answer_map(const Call& call);            // /v1/maps/{map}
 Result<Response> answer_segments_near(const Call& call);  // /v1/segments?near=LAT,LON&radius_m=R
-Result<Response> answer_segment(const Call& call);        // …/segments/{segment}
-Result<Response> answer_tile_range(const Call& call);     // …/tiles?layer=L&from_m=A&to_m=B
-Result<Response> answer_tile(const Call& call);           // …/tiles/{layer}/{index}
-Result<Response> answer_areas(const Call& call);          // …/areas
-Result<Response> answer_cell_range(const Call& call);     // …/areas/{layer}?bbox=W,S,E,N
-Result<Response> answer_cell(const Call& call);           // …/areas/{layer}/{cell}
+Result<Response> answer_segment(const Call& call);        // .../segments/{segment}
+Result<Response> answer_tile_range(const Call& call);     // .../tiles?layer=L&from_m=A&to_m=B
+Result<Response> answer_tile(const Call& call);           // .../tiles/{layer}/{index}
+Result<Response> answer_areas(const Call& call);          // .../areas
+Result<Response> answer_cell_range(const Call& call);     // .../areas/{layer}?bbox=W,S,E,N
+Result<Response> answer_cell(const Call& call);           // .../areas/{layer}/{cell}
 
 }  // namespace milepost::server

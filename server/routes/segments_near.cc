@@ -31,7 +31,7 @@ Result<GeoPoint> position_of(const Query& query) {
   if (!longitude_deg) return longitude_deg.error();
   const GeoPoint position{*latitude_deg, *longitude_deg, 0};
   if (!is_valid(position)) {
-    return Error{ErrorCode::invalid_input, "parameter near", "lies outside the Earth's degrees",
+    return Error{ErrorCode::invalid_input, "parameter near", "is out of range",
                  "write a latitude in [-90, 90] and a longitude in [-180, 180]"};
   }
   return position;

@@ -7,7 +7,7 @@ namespace milepost::server {
 
 Result<Response> answer_health(const Call&) { return plain_text("ok\n"); }
 
-// The catalog is open before the server listens, so who can ask finds it ready.
+// The catalog is open before the server listens, so the server is always ready.
 Result<Response> answer_ready(const Call&) { return plain_text("ok\n"); }
 
 Result<Response> answer_openapi(const Call&) {

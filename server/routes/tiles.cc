@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "server/routes/answers.h"
-#include "server/routes/find.h"
+#include "server/routes/lookup.h"
 #include "server/routes/routes.h"
 
 namespace milepost::server {

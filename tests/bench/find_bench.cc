@@ -1,5 +1,5 @@
-// Time of finding the vehicle in a frame, on one thread, against what bare OpenCV takes for the
-// frame's line segments and features, of which finding makes use.
+// Time of global localization per frame, on one thread, compared with that of bare OpenCV for the
+// frame's line segments and features, which global localization uses.
 // usage: find_bench FOOTPRINTS DRIVE [PARTICLES]
 #include <cstdio>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "client/global/finder.h"
+#include "client/global/global_localizer.h"
 #include "mapper/aerial/footprints.h"
 #include "schema/drive/frame_image.h"
 #include "tests/bench/timing.h"
@@ -33,9 +33,9 @@ int main(int argc, char** argv) {
   if (!footprints) return fail(footprints.error());
   const Result<Drive> drive = read_drive(argv[2]);
   if (!drive) return fail(drive.error());
-  FinderSettings settings;
+  GlobalLocalizerSettings settings;
   if (argc > 3) settings.particles = std::strtoul(argv[3], nullptr, 10);
-  Finder finder(footprints->walls, drive->camera.pinhole, settings);
+  GlobalLocalizer localizer(footprints->walls, drive->camera.pinhole, settings);
 
   cv::setNumThreads(1);
   const auto segments = cv::createLineSegmentDetector();
@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     for (; next_reading < drive->odometry.size() &&
            drive->odometry[next_reading].timestamp_s <= timestamp_s;
          ++next_reading) {
-      finder.observe(drive->odometry[next_reading]);
+      localizer.observe(drive->odometry[next_reading]);
     }
     const Result<cv::Mat> gray = frames.gray(i);
     if (!gray) return fail(gray.error());
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
       segments->detect(*gray, ends);
       orb->detectAndCompute(*gray, cv::noArray(), keypoints, descriptors);
     });
-    const double find_s = bench::seconds_of([&] { finder.find(*gray, timestamp_s); });
+    const double find_s = bench::seconds_of([&] { localizer.find(*gray, timestamp_s); });
     bare_total_s += bare_s;
     find_total_s += find_s;
     bare_ms.push_back(1000 * bare_s);

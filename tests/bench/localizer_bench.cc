@@ -1,4 +1,4 @@
-// Time of localizing a frame, its features included, against bare OpenCV SIFT of that frame.
+// Time of localizing a frame, including its features, compared with bare OpenCV SIFT of that frame.
 // usage: localizer_bench MAP_DRIVE QUERY_DRIVE [METHOD]
 #include <cstdio>
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace {
 
-// Of times spent over the same frames.
+// The ratio of times over the same frames.
 struct RatioOfSums {
   double seconds = 0;
   double reference_s = 0;
@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
       if (!fix) fail(fix.error());
       if (fix) status = fix->status;
     });
-    // Sent to the other end of the road, it looks in vain.
+    // With a GNSS fix at the other end of the road it searches without success.
     const Frame& elsewhere = query->frames[query->frames.size() - 1 - i];
     searcher.observe({frame.timestamp_s, elsewhere.position, 5});
     const double searcher_s = bench::seconds_of([&] {

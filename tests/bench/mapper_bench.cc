@@ -1,4 +1,4 @@
-// Wall time of building a map against bare OpenCV SIFT on the same frames with as many threads.
+// Wall time of building a map, compared with bare OpenCV SIFT on the same frames and threads.
 // usage: mapper_bench DRIVE [THREADS [ROUNDS]]
 #include <atomic>
 #include <cstdio>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace milepost;
 
-// Decodes every frame and extracts its features, as the mapper has to, and nothing else.
+// Decodes every frame and extracts its features, as the mapper must, and nothing else.
 void bare_sift(const Drive& drive, const FeatureParameters& parameters, int threads) {
   const FrameReader frames(drive);
   std::atomic<std::size_t> next{0};

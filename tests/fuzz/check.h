@@ -1,4 +1,4 @@
-// What must hold for any input. Unlike an assert it is there in every build.
+// Checks a condition that must hold for any input. Unlike an assert it is active in every build.
 #pragma once
 
 #include <cstdlib>

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "schema/base/json.h"
-#include "schema/feature/codebook.h"
+#include "schema/feature/pca_projection.h"
 #include "schema/feature/types.h"
 #include "tests/fuzz/check.h"
 
@@ -66,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (json) static_cast<void>(feature_parameters_from_json(*json));
       break;
     case 'b':
-      if (json) static_cast<void>(Codebook::from_json(*json));
+      if (json) static_cast<void>(PcaProjection::from_json(*json));
       break;
     default:
       break;

@@ -1,4 +1,4 @@
-// Footprints with any bytes: what is read of them can be stored, and read again.
+// Footprints with arbitrary bytes: walls that are read from them can be stored, and read again.
 #include "mapper/aerial/footprints.h"
 
 #include <cstdint>

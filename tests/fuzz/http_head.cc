@@ -10,7 +10,7 @@ namespace {
 using namespace milepost;
 using namespace milepost::server;
 
-// A refused request has its answer, and an understood one has what handle() needs.
+// A rejected request has its response, and an accepted one has what handle() requires.
 void check_incoming(const Incoming& incoming) {
   if (incoming.refusal) {
     fuzz::check(!incoming.keep_alive && incoming.refusal->status >= 400);
@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::check(taken <= connection.size());
       if (taken > arrived) break;
     }
-    if (!parser.done()) return 0;  // it waits for more
+    if (!parser.done()) return 0;  // the parser waits for more
     check_incoming(parser.incoming());
     if (!parser.incoming().keep_alive || taken == 0) return 0;
     connection.remove_prefix(taken);

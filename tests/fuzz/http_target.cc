@@ -1,4 +1,4 @@
-// The server's answers to any request line: "METHOD\nIF-NONE-MATCH\nTARGET".
+// The server's responses to any request line: "METHOD\nIF-NONE-MATCH\nTARGET".
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -24,7 +24,7 @@ const Catalog& catalog() {
   return *opened;
 }
 
-// Takes the text up to the next line end.
+// Removes and returns the text up to the next line end.
 std::string next_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   std::string line(text.substr(0, end));
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Response response = handle(request, catalog());
   fuzz::check(response.status >= 200 && response.status < 500);
   const std::string head = head_of(response, 11, true);
-  fuzz::check(head.find("\r\n\r\n") == head.size() - 4);  // nothing of the request ends the head
+  fuzz::check(head.find("\r\n\r\n") == head.size() - 4);  // no input can end the head early
   std::uint64_t bytes = 0;
   for (BodyReader reader(response, true); !reader.done();) {
     const Result<ByteView> piece = reader.next();

@@ -1,5 +1,5 @@
-// A map file with any bytes: what a client reads of it ('c' as the first byte), or what a server
-// reads at its start ('s').
+// A map file with arbitrary bytes: the reads of a client ('c' as the first byte), or of a server
+// at its start ('s').
 #include <unistd.h>
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace {
 using namespace milepost;
 namespace fs = std::filesystem;
 
-// In memory where the system has a file system there.
+// In memory if the system has such a file system.
 const fs::path& map_file() {
   static const fs::path file = [] {
     const fs::path memory = "/dev/shm";

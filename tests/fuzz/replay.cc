@@ -1,5 +1,5 @@
-// Gives a fuzz target each file of some folders, without libFuzzer: the inputs that once failed,
-// and the seeds, are tests in every build.
+// Runs a fuzz target on each file of some folders, without libFuzzer: inputs that once failed, and
+// the seeds, are tests in every build.
 // usage: PROGRAM FOLDER...
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
       std::ostringstream content;
       content << std::ifstream(entry.path(), std::ios::binary).rdbuf();
       const std::string bytes = std::move(content).str();
-      std::cout << entry.path().filename().string() << std::endl;  // before it may crash
+      std::cout << entry.path().filename().string() << std::endl;  // before a possible crash
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
       ++inputs;
     }

@@ -105,7 +105,7 @@ void write_documents(const SeedFolder& seeds) {
                   std::string(5462, 'A') + R"(=="})");
 }
 
-// An encoded tile, and its content as target `tiles` takes it.
+// An encoded tile, and its content, as inputs of target `tiles`.
 void write_tile(const SeedFolder& seeds, char kind, const Bytes& encoded) {
   seeds.write("tiles", std::string("stored-") + kind,
               std::string(1, static_cast<char>(kind - 'a' + 'A')) + std::string(as_text(encoded)));
@@ -123,7 +123,7 @@ ObservationTile observations() {
   return {"s", 0, ScaleModel::inverse_scale, {observed}};
 }
 
-FrameTile frames() {
+ImageDescriptorTile frames() {
   DatabaseFrame frame{3, {{{10, 20, 5}}, {Descriptor{}}}, ImageDescriptor{0.5F}};
   return {"s", 0, {frame}};
 }
@@ -141,7 +141,7 @@ void write_tiles(const SeedFolder& seeds) {
   write_tile(seeds, 'w', encode_walls(walls()));
 }
 
-// Small pages make a small file, in which more of the bytes mean something.
+// Small pages make a small file, in which a larger share of the bytes is significant.
 std::string shrunk(const fs::path& map) {
   Result<sqlite::Database> database = sqlite::Database::open(map, sqlite::Access::read_write);
   if (!database || !database->execute("PRAGMA page_size = 512; VACUUM")) std::abort();

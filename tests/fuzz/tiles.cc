@@ -1,5 +1,5 @@
-// The tile decoders. The first byte chooses one. A capital gets the bytes as an encoded tile; a
-// small letter gets them as its content, which zstd's checksum would otherwise shield.
+// The tile decoders. The first byte chooses one: a capital letter for an encoded tile, a lower-case
+// letter for its content, which zstd's checksum would otherwise protect.
 #include <cstdint>
 
 #include "schema/tile/codec.h"
@@ -18,7 +18,7 @@ Result<Tile> read(ByteView bytes, Result<Tile> (*from_table)(ByteView)) {
   return tile;
 }
 
-// A tile whose values are kept as whole steps: what is taken can be written, and is taken again.
+// A tile with quantized values: a tile that is accepted can be encoded, and is accepted again.
 template <class Tile>
 void read_twice(ByteView bytes, Result<Tile> (*from_table)(ByteView),
                 Bytes (*table_from)(const Tile&)) {

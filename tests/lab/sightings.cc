@@ -12,8 +12,8 @@
 #include "client/evaluate/drive_playback.h"
 #include "client/fetch/file_source.h"
 #include "client/fetch/tile_provider.h"
-#include "client/localize/follower.h"
 #include "client/localize/landmark_method.h"
+#include "client/localize/segment_tracker.h"
 #include "schema/drive/frame_image.h"
 #include "schema/feature/extractor.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 using namespace milepost;
 
-constexpr double kPlacesApartM = 6;
+constexpr double kSpacingM = 6;
 constexpr double kReachM = 8;  // of a look, to either side
 
 int fail(const Error& error) {
@@ -30,24 +30,24 @@ int fail(const Error& error) {
 }
 
 // Writes what one frame says for the places of one segment.
-Status look_along(Scout& scout, const RouteLine& line, const std::string& segment, SeenFrame& frame,
-                  const std::string& filename, std::ostream& out) {
-  for (double along_m = 0; along_m <= line.length_m(); along_m += kPlacesApartM) {
-    const Looked looked =
-        scout.look(frame, AlongRange{along_m, along_m}.widened(kReachM), std::nullopt);
-    if (looked.failure) return *looked.failure;
-    for (const Sighting& sighting : looked.sightings) {
-      const TrackedPosition at = sighting.follower->position();
+Status relocalize_along(Relocalizer& relocalizer, const RouteLine& line, const std::string& segment,
+                        SharedFrame& frame, const std::string& filename, std::ostream& out) {
+  for (double along_m = 0; along_m <= line.length_m(); along_m += kSpacingM) {
+    const Relocalization found =
+        relocalizer.relocalize(frame, AlongRange{along_m, along_m}.widened(kReachM), std::nullopt);
+    if (found.failure) return *found.failure;
+    for (const RelocalizationCandidate& candidate : found.candidates) {
+      const TrackedPose at = candidate.tracker->position();
       const GeoPoint place = position_of(at, line);
       const LineProjection beside = line.project(place);
       const double up_m = place.altitude_m - line.point_at(beside.along_m).altitude_m;
       const double line_deg = line.heading_deg_at(beside.along_m);
-      const double heading_deg = at.across ? at.across->camera.heading_deg : line_deg;
+      const double heading_deg = at.full ? at.full->camera.heading_deg : line_deg;
       const double turned_deg = std::remainder(heading_deg - line_deg, 360);
       char row[256];
       std::snprintf(row, sizeof row, "%s,%s,%.3f,%.10f,%.10f,%d,%.4f,%.3f,%.3f,%.3f\n",
                     filename.c_str(), segment.c_str(), at.along_m, place.latitude_deg,
-                    place.longitude_deg, sighting.matches, sighting.log_bayes_factor,
+                    place.longitude_deg, candidate.matches, candidate.log_bayes_factor,
                     beside.lateral_m, up_m, turned_deg);
       out << row;
     }
@@ -100,8 +100,9 @@ int main(int argc, char** argv) {
   const FrameReader frames(*drive);
   for (const auto& [key, segment] : (*held)->segments) {
     if (!segment->layer) return fail(*segment->failure);
-    const auto scout = method.make_scout(*segment->layer, drive->camera, ScoutSettings());
-    if (!scout) return fail(scout.error());
+    const auto relocalizer =
+        method.make_relocalizer(*segment->layer, drive->camera, MethodSettings());
+    if (!relocalizer) return fail(relocalizer.error());
     FeatureExtractor extractor(segment->layer->feature());
     for (std::size_t i = 0; i < drive->frames.size(); i += every) {
       const Result<cv::Mat> gray = frames.gray(i);
@@ -110,10 +111,10 @@ int main(int argc, char** argv) {
       const QueryFrame query{
           drive->frames[i].timestamp_s,
           [&](const FeatureParameters&) -> const FeatureSet& { return features; }};
-      SeenFrame frame(query, **held);
-      const Status looked = look_along(**scout, segment->layer->line, key.segment, frame,
-                                       drive->frames[i].filename, out);
-      if (!looked) return fail(looked.error());
+      SharedFrame frame(query, **held);
+      const Status found = relocalize_along(**relocalizer, segment->layer->line, key.segment, frame,
+                                            drive->frames[i].filename, out);
+      if (!found) return fail(found.error());
     }
   }
   out.close();

@@ -14,11 +14,11 @@ using testing::kStreetPinhole;
 using testing::MadeUpStreet;
 using testing::StreetPlan;
 
-const StreetPlan kNoisy{.mounting_deg = 1.5,
-                        .heading_noise_deg = 0.5,
-                        .position_noise_m = 0.04,
-                        .tilt_deg = 0.5,
-                        .pixel_noise_px = 0.5};
+const StreetPlan kNoisyPoses{.mounting_deg = 1.5,
+                             .heading_noise_deg = 0.5,
+                             .position_noise_m = 0.04,
+                             .tilt_deg = 0.5,
+                             .pixel_noise_px = 0.5};
 
 struct Errors {
   double position_m = 0;  // root mean squares
@@ -46,10 +46,10 @@ bool same(const CameraPose& a, const CameraPose& b) {
          a.roll_rad == b.roll_rad;
 }
 
-// Every tenth track takes its second half from another: what a wrong match leaves.
-std::vector<PixelTrack> with_wrong_ones(std::vector<PixelTrack> tracks) {
+// Every tenth track takes its second half from another, as after a wrong match.
+std::vector<FeatureTrack> with_wrong_ones(std::vector<FeatureTrack> tracks) {
   for (std::size_t i = 0; i + 1 < tracks.size(); i += 10) {
-    PixelTrack& track = tracks[i];
+    FeatureTrack& track = tracks[i];
     for (std::size_t k = track.size() / 2; k < track.size(); ++k) {
       track[k].pixel = tracks[i + 1][k % tracks[i + 1].size()].pixel;
     }
@@ -58,7 +58,7 @@ std::vector<PixelTrack> with_wrong_ones(std::vector<PixelTrack> tracks) {
 }
 
 TEST(AdjustPoses, FindsWhatTheRecordDoesNotSay) {
-  MadeUpStreet street(kNoisy);
+  MadeUpStreet street(kNoisyPoses);
   std::vector<CameraPose> poses = street.recorded;
   const Errors before = errors_of(poses, street.poses);
   EXPECT_GT(before.heading_deg, 1.4);
@@ -71,8 +71,8 @@ TEST(AdjustPoses, FindsWhatTheRecordDoesNotSay) {
   EXPECT_LT(after.position_m, before.position_m);
 }
 
-TEST(AdjustPoses, SettledPosesDoNotMove) {
-  MadeUpStreet street(kNoisy);
+TEST(AdjustPoses, FinalPosesDoNotMove) {
+  MadeUpStreet street(kNoisyPoses);
   std::vector<CameraPose> poses = street.recorded;
   for (std::size_t i = 0; i < 10; ++i) poses[i] = street.poses[i];
   adjust_poses(poses, 10, street.sights_of_all(), kStreetPinhole, {});
@@ -85,7 +85,7 @@ TEST(AdjustPoses, SettledPosesDoNotMove) {
 TEST(AdjustPoses, TheSameInputGivesTheSamePoses) {
   std::vector<std::vector<CameraPose>> runs;
   for (int run = 0; run < 2; ++run) {
-    MadeUpStreet street(kNoisy);
+    MadeUpStreet street(kNoisyPoses);
     runs.push_back(street.recorded);
     adjust_poses(runs.back(), 0, with_wrong_ones(street.sights_of_all()), kStreetPinhole, {});
   }
@@ -93,7 +93,7 @@ TEST(AdjustPoses, TheSameInputGivesTheSamePoses) {
 }
 
 TEST(AdjustPoses, WithoutTracksPosesStayAsRecorded) {
-  const MadeUpStreet street(kNoisy);
+  const MadeUpStreet street(kNoisyPoses);
   std::vector<CameraPose> poses = street.recorded;
   adjust_poses(poses, 3, {}, kStreetPinhole, {});
   const Errors moved = errors_of(poses, street.recorded);
@@ -103,14 +103,15 @@ TEST(AdjustPoses, WithoutTracksPosesStayAsRecorded) {
   EXPECT_LT(moved.roll_deg, 1e-9);
 }
 
-// What is settled has its mounting in it: it says nothing of the mounting any more.
-TEST(AdjustPoses, SettledPosesDoNotHideTheMounting) {
+// Final headings include the mounting: they no longer constrain it.
+TEST(AdjustPoses, FinalPosesDoNotHideTheMounting) {
   MadeUpStreet street({.frames = 30, .points = 400, .mounting_deg = 1.5, .pixel_noise_px = 0.3});
   std::vector<CameraPose> poses = street.recorded;
   for (std::size_t i = 0; i < 20; ++i) poses[i] = street.poses[i];
-  std::vector<PixelTrack> tracks;  // none of the last two frames: only their records say anything
-  for (PixelTrack& track : street.sights_of_all()) {
-    std::erase_if(track, [](const Sight& sight) { return sight.frame >= 28; });
+  std::vector<FeatureTrack> tracks;  // none in the last two frames: only priors constrain them
+  for (FeatureTrack& track : street.sights_of_all()) {
+    std::erase_if(track,
+                  [](const PixelObservation& observation) { return observation.frame >= 28; });
     if (track.size() >= 3) tracks.push_back(std::move(track));
   }
   adjust_poses(poses, 20, tracks, kStreetPinhole, {});

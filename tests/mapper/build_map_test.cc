@@ -1,4 +1,4 @@
-// Whole maps of a street that the simulator drives, as milepost-mapper makes them.
+// Complete maps of a simulated street, as built by milepost-mapper.
 #include "mapper/pipeline/build_map.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "schema/feature/codebook.h"
+#include "schema/feature/pca_projection.h"
 #include "schema/store/map_store.h"
 #include "schema/tile/codec.h"
 #include "tests/simulator/record.h"
@@ -80,7 +80,7 @@ TEST(BuildMap, TheDefaultMapHoldsLandmarksAndTheirCodebook) {
   EXPECT_EQ(parameters.at("items"), "landmarks");
   EXPECT_EQ(parameters.at("tile_length_m"), 20);
   EXPECT_EQ(parameters.at("focal_px"), json({178.75, 200.05}));
-  const Result<Codebook> codebook = Codebook::from_json(parameters.at("codebook"));
+  const Result<PcaProjection> codebook = PcaProjection::from_json(parameters.at("codebook"));
   ASSERT_TRUE(codebook.ok()) << codebook.error().line();
   EXPECT_EQ(codebook->step(), BuildSettings{}.codebook_step);
   EXPECT_FALSE(parameters.contains("model"));
@@ -211,7 +211,7 @@ TEST(BuildMap, NothingFoundIsAnErrorAndTheOldMapStays) {
   const std::string frames = std::to_string(old.report.frames);
   EXPECT_EQ(
       report.error().line(),
-      black.drive().folder.string() + ": there is nothing to localize by in its " + frames +
+      black.drive().folder.string() + ": nothing to localize with was found in its " + frames +
           " frames: features 0, grey values 3 to 3 of 0 to 255, tracklets 0; check its frames "
           "and their order, leave the drive out, or give --allow-empty");
   EXPECT_TRUE(old.bytes() == before);

@@ -26,10 +26,10 @@ struct MadeLayer {
   std::vector<StoredTile> tiles;
 };
 
-Codebook codebook() {
+PcaProjection codebook() {
   std::vector<Descriptor> descriptors;
   for (std::size_t i = 0; i < 1000; ++i) descriptors.push_back(testing::descriptor_of(i));
-  return Codebook::trained(descriptors, 0.02);
+  return PcaProjection::trained(descriptors, 0.02);
 }
 
 // The tiles of a street of 900 points, as they become complete.
@@ -43,7 +43,7 @@ MadeLayer layer_of(double size_target_kb_per_m) {
   std::vector<GeoPoint> vertices;
   for (std::size_t i = 0; i < kFrames; ++i) vertices.push_back(street.frame(i).position);
   const RouteLine line = RouteLine::from_vertices(std::move(vertices)).value();
-  const Codebook compact = codebook();
+  const PcaProjection compact = codebook();
   const SegmentContext context{"s", kStreetCamera, line, compact, kTileLengthM};
   LandmarkLayerSettings settings;
   settings.size_target_kb_per_m = size_target_kb_per_m;
@@ -94,7 +94,7 @@ TEST(LandmarkLayerBuilder, NoTileWeighsMoreThanItsStretchMay) {
       bytes += static_cast<double>(tile.frame.size());
       items[target_kb_per_m] += tile.items;
     }
-    if (target_kb_per_m < 0.1) {  // there are landmarks enough to fill it
+    if (target_kb_per_m < 0.1) {  // there are enough landmarks to fill it
       EXPECT_GT(bytes, 800 * target_kb_per_m * 160);
     }
   }
@@ -128,7 +128,7 @@ TEST(LandmarkLayerBuilder, ATileThatHoldsNothingIsNotStored) {
   EXPECT_THAT(layer_of(0.001).tiles, ::testing::IsEmpty());  // 20 bytes are less than any tile
 }
 
-// What was stored lies where the street's points lie.
+// The stored landmarks are at the positions of the street's points.
 TEST(LandmarkLayerBuilder, LandmarksLieInTheirTilesFrame) {
   MadeUpStreet street({.frames = kFrames, .points = 900, .pixel_noise_px = 0.3});
   const RouteLine line = [&] {

@@ -33,7 +33,7 @@ LandmarkSettings in_windows(std::size_t frames, std::size_t overlap) {
   return settings;
 }
 
-// Feeds a street's frames and tracks to a mapper as a build does: each track with the first frame
+// Passes a street's frames and tracks to a mapper as a build does: each track with the first frame
 // that does not continue it.
 class Drive {
  public:
@@ -93,7 +93,7 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-// Distances of the landmarks from where their points truly are.
+// Distances of the landmarks from the true positions of their points.
 std::vector<double> place_errors_m(const MadeUpStreet& street,
                                    const std::vector<MappedLandmark>& landmarks) {
   const auto found = by_descriptor(landmarks);
@@ -168,7 +168,7 @@ TEST(LandmarkMapper, SeveralWindowsGiveWhatOneGives) {
   EXPECT_LT(quantile(distances_m, 0.95), 0.3);
 }
 
-// The open track began before all frames that ended tracks and the next window hold.
+// The open track began before all frames that ended tracks and the next window require.
 TEST(LandmarkMapper, ATrackMayBeLongerThanTheOverlap) {
   MadeUpStreet street({.frames = 70, .farthest_m = 90});
   std::size_t longest = 0;
@@ -189,7 +189,7 @@ TEST(LandmarkMapper, ATrackMayBeLongerThanTheOverlap) {
   EXPECT_EQ(landmark.along.from_m, street.track_of(longest).front().along_m);
 }
 
-// At the camera's height it would move along the lines that a standing point's images move along.
+// At the camera's height its images would move along the same lines as those of a static point.
 TEST(LandmarkMapper, LeavesOutWhatMoves) {
   MadeUpStreet street(kNoisy);
   std::vector<std::size_t> movers;
@@ -222,7 +222,7 @@ TEST(LandmarkMapper, LeavesOutWhatIsTooFarOrTooUncertain) {
   }
 }
 
-// What waits lies within the latest frames of a window, its overlaps and the longest track.
+// Waiting tracks are within the latest frames: a window, its overlaps and the longest track.
 TEST(LandmarkMapper, NothingWaitsForLong) {
   StreetPlan plan;
   plan.frames = 300;

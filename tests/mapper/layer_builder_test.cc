@@ -10,7 +10,7 @@
 namespace milepost {
 namespace {
 
-constexpr double kEnd = std::numeric_limits<double>::infinity();
+constexpr double kLayerEnd = std::numeric_limits<double>::infinity();
 
 // A feature of fixed size, approached from `start_m`: s = 120 / distance.
 Track approached_feature(double feature_along_m, double start_m, std::size_t frames) {
@@ -33,7 +33,7 @@ RouteLine straight_line() {
 // A segment `s` in tiles of 20 m.
 std::unique_ptr<LayerBuilder> builder_of(const Layer& layer) {
   static const RouteLine line = straight_line();
-  static const Codebook codebook = Codebook::trained({}, 0.02);
+  static const PcaProjection codebook = PcaProjection::trained({}, 0.02);
   static const SegmentContext context{"s", {}, line, codebook, 20};
   return make_layer_builder(layer, context);
 }
@@ -47,8 +47,8 @@ TEST(LayerBuilder, TheLaboratorysLayersHoldTheSameTracklets) {
   tracks.back()[1].feature.scale_px = 90;  // no line fits: in neither layer
   for (const auto& builder : {averaged.get(), observed.get()}) builder->add_tracks(tracks);
 
-  const auto of_averaged = averaged->take_complete(kEnd);
-  const auto of_observed = observed->take_complete(kEnd);
+  const auto of_averaged = averaged->take_complete(kLayerEnd);
+  const auto of_observed = observed->take_complete(kLayerEnd);
   ASSERT_TRUE(of_averaged.ok() && of_observed.ok());
   ASSERT_EQ(of_averaged->size(), 1U);
   ASSERT_EQ(of_observed->size(), 1U);
@@ -97,7 +97,7 @@ TEST(LayerBuilder, FramesKeepWhatTheirLayerIsFor) {
   EXPECT_EQ(featured->frames[1].along_m, 19);
   EXPECT_EQ(featured->frames[1].features.features[0].scale_px, 3);
   EXPECT_FALSE(featured->frames[1].image.has_value());
-  const auto of_images = images->take_complete(kEnd);
+  const auto of_images = images->take_complete(kLayerEnd);
   ASSERT_TRUE(of_images.ok());
   ASSERT_EQ(of_images->size(), 2U);
   const auto imaged = decode_frames(of_images->at(1).frame);
@@ -110,11 +110,11 @@ TEST(LayerBuilder, RefusesATileThatNoReaderWouldTake) {
   const auto builder = builder_of({"o", LayerItems::observations, {}, {}, {}});
   builder->add_tracks(
       std::vector<Track>(4000, approached_feature(300, 0, 40)));  // 20 MB of descriptors
-  const auto tiles = builder->take_complete(kEnd);
+  const auto tiles = builder->take_complete(kLayerEnd);
   ASSERT_FALSE(tiles.ok());
   EXPECT_EQ(tiles.error().code, ErrorCode::invalid_input);
-  EXPECT_THAT(tiles.error().line(), testing::HasSubstr("16 MiB"));
-  EXPECT_THAT(tiles.error().line(), testing::HasSubstr("--tile-length-m"));
+  EXPECT_THAT(tiles.error().line(), ::testing::HasSubstr("16 MiB"));
+  EXPECT_THAT(tiles.error().line(), ::testing::HasSubstr("--tile-length-m"));
 }
 
 }  // namespace

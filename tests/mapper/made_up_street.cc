@@ -27,7 +27,7 @@ MadeUpStreet::MadeUpStreet(const StreetPlan& plan) : plan_(plan), random_(plan.s
   std::normal_distribution<double> normal;
   const auto noise = [&](double sigma) { return sigma * normal(random_); };
   CameraPose vehicle{{0, 0, 1.5}, plan.heading_deg * kRadPerDeg, 0, 0};
-  std::vector<CameraPose> road;  // ends farther on, where the last frames look
+  std::vector<CameraPose> road;  // extends beyond the last frame, to where it looks
   const auto seen_ahead = static_cast<std::size_t>(plan.farthest_m / kFrameSpacingM);
   for (std::size_t i = 0; i < plan.frames + seen_ahead; ++i) {
     road.push_back(vehicle);
@@ -59,14 +59,14 @@ MadeUpStreet::MadeUpStreet(const StreetPlan& plan) : plan_(plan), random_(plan.s
   }
 }
 
-PixelTrack MadeUpStreet::sights_of(const StreetPoint& point) {
+FeatureTrack MadeUpStreet::observations_of(const StreetPoint& point) {
   std::normal_distribution<double> noise(0, plan_.pixel_noise_px);
-  PixelTrack track;
+  FeatureTrack track;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Vector3d at = point.enu_m + static_cast<double>(i) * point.step_m;
-    const Eigen::Vector3d seen = seen_from(poses[i], at);
+    const Eigen::Vector3d seen = point_in_camera(poses[i], at);
     if (seen.z() < plan_.nearest_m || seen.z() > plan_.farthest_m) continue;
-    const Eigen::Vector2d pixel = kStreetPinhole.pixel_of(seen);
+    const Eigen::Vector2d pixel = kStreetPinhole.project(seen);
     if (!in_image(pixel)) continue;
     track.push_back({i, pixel});
     if (plan_.pixel_noise_px > 0)
@@ -76,10 +76,10 @@ PixelTrack MadeUpStreet::sights_of(const StreetPoint& point) {
   return track;
 }
 
-std::vector<PixelTrack> MadeUpStreet::sights_of_all() {
-  std::vector<PixelTrack> tracks;
+std::vector<FeatureTrack> MadeUpStreet::sights_of_all() {
+  std::vector<FeatureTrack> tracks;
   for (const StreetPoint& point : points) {
-    PixelTrack track = sights_of(point);
+    FeatureTrack track = observations_of(point);
     if (!track.empty()) tracks.push_back(std::move(track));
   }
   return tracks;
@@ -87,10 +87,10 @@ std::vector<PixelTrack> MadeUpStreet::sights_of_all() {
 
 Track MadeUpStreet::track_of(std::size_t point) {
   Track track;
-  for (const Sight& sight : sights_of(points[point])) {
+  for (const PixelObservation& sight : observations_of(points[point])) {
     const Eigen::Vector3d at =
         points[point].enu_m + static_cast<double>(sight.frame) * points[point].step_m;
-    const double depth_m = seen_from(poses[sight.frame], at).z();
+    const double depth_m = point_in_camera(poses[sight.frame], at).z();
     Observation observation;
     observation.along_m = static_cast<double>(sight.frame) * kFrameSpacingM;
     observation.feature = {

@@ -8,8 +8,8 @@
 namespace milepost {
 namespace {
 
-using testing::DoubleNear;
-using testing::FloatNear;
+using ::testing::DoubleNear;
+using ::testing::FloatNear;
 
 // A feature of fixed size at `feature_along_m`, approached at constant speed: s = k / Z.
 Track approached_feature(double k, double feature_along_m, double start_m, double step_m,
@@ -73,7 +73,7 @@ TEST(Regression, LeastSquaresAndDeterminationByHand) {
 TEST(Regression, KeepsMeanDescriptorAndRanges) {
   const auto tracklet = tracklet_from_track(approached_feature(60, 30, 0, 2, 4), {});
   ASSERT_TRUE(tracklet.has_value());
-  EXPECT_THAT(tracklet->descriptor, testing::Each(25));  // of 10, 20, 30, 40, Eq. 15
+  EXPECT_THAT(tracklet->descriptor, ::testing::Each(25));  // of 10, 20, 30, 40, Eq. 15
   EXPECT_EQ(tracklet->observations, 4);
   EXPECT_EQ(tracklet->along.from_m, 0);
   EXPECT_EQ(tracklet->along.to_m, 6);
@@ -85,7 +85,7 @@ TEST(Regression, KeepsMeanDescriptorAndRanges) {
   EXPECT_FLOAT_EQ(tracklet->pixels.y_max_px, 200);
 }
 
-TEST(Regression, RefusesWhatIsNoWitnessOfPosition) {
+TEST(Regression, RefusesTracksThatDoNotDeterminePosition) {
   Track constant = approached_feature(60, 30, 0, 2, 4);
   for (Observation& observation : constant) observation.feature.scale_px = 3;
   EXPECT_FALSE(tracklet_from_track(constant, {}).has_value());

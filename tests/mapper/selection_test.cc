@@ -21,7 +21,7 @@ RouteLine line_north() {
   return RouteLine::from_vertices(std::move(vertices)).value();
 }
 
-// Seen over 20 m of road from `from_m`, and nine metres ahead of that.
+// Visible over 20 m of road from `from_m`, and nine metres ahead of that.
 MappedLandmark landmark_at(double right_m, double from_m, double ahead_m = 29) {
   MappedLandmark landmark;
   landmark.position = MadeUpStreet::geo_of({right_m, from_m + ahead_m, 3});
@@ -58,7 +58,7 @@ TEST(LandmarkSelector, AnotherBearingBeatsTheSameAgain) {
 
 TEST(LandmarkSelector, RoadWithoutLandmarksComesBeforeRoadThatHasSome) {
   const LandmarkSelector selector({});
-  const MappedLandmark elsewhere = landmark_at(7, 100);  // says a little less by itself
+  const MappedLandmark elsewhere = landmark_at(7, 100);  // adds a little less information by itself
   const std::vector<std::size_t> order = selector.ranked(
       {landmark_at(6, 40), landmark_at(6.1, 40), landmark_at(-6, 40), elsewhere}, line_north());
   EXPECT_LE(std::find(order.begin(), order.end(), 3U) - order.begin(), 1);

@@ -10,11 +10,11 @@ namespace milepost::server {
 namespace {
 
 using nlohmann::json;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
-class AreasTest : public testing::Test {
+class AreasTest : public ::testing::Test {
  protected:
   AreasTest() : town_(write_town(folder_.path() / "town.map")) {
     catalog_ = open_catalog(folder_.path());
@@ -32,7 +32,7 @@ class AreasTest : public testing::Test {
     return areas_path() + "/walls/" + std::to_string(kTownCells[i]);
   }
 
-  // The numbers of the cells of a range answer.
+  // The numbers of the cells of a range response.
   std::vector<std::uint32_t> cells(const std::string& target) const {
     const Response response = get(target);
     EXPECT_EQ(response.status, 200U) << target;
@@ -146,14 +146,14 @@ TEST_F(AreasTest, WrongBoxesAreToldApart) {
       {"bbox=8;49;9;50", "a side of bbox: is '8;49;9;50'"},
       {"bbox=nan,49,9,50", "a side of bbox: is 'nan'"},
       {"bbox=8,49,9,NaN", "a side of bbox: is 'NaN'"},
-      {"bbox=8,49,inf,50", "parameter bbox: lies outside"},
-      {"bbox=-inf,49,9,50", "parameter bbox: lies outside"},
-      {"bbox=8,-inf,9,inf", "parameter bbox: lies outside"},
+      {"bbox=8,49,inf,50", "parameter bbox: is out of range"},
+      {"bbox=-inf,49,9,50", "parameter bbox: is out of range"},
+      {"bbox=8,-inf,9,inf", "parameter bbox: is out of range"},
       {"bbox=8,49,1e999,50", "a side of bbox: is '1e999'"},
-      {"bbox=-180.1,49,9,50", "parameter bbox: lies outside"},
-      {"bbox=8,49,180.1,50", "parameter bbox: lies outside"},
-      {"bbox=8,-90.1,9,50", "parameter bbox: lies outside"},
-      {"bbox=8,49,9,90.1", "parameter bbox: lies outside"},
+      {"bbox=-180.1,49,9,50", "parameter bbox: is out of range"},
+      {"bbox=8,49,180.1,50", "parameter bbox: is out of range"},
+      {"bbox=8,-90.1,9,50", "parameter bbox: is out of range"},
+      {"bbox=8,49,9,90.1", "parameter bbox: is out of range"},
       {"bbox=8,50,9,49", "parameter bbox: south is greater than north"},
   };
   for (const auto& [query, detail] : cases) {

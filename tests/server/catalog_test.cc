@@ -17,13 +17,13 @@ namespace milepost::server {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::StartsWith;
-using testing::UnorderedElementsAre;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
 
-class CatalogTest : public testing::Test {
+class CatalogTest : public ::testing::Test {
  protected:
   Result<std::shared_ptr<const Catalog>> open() {
     warnings_.clear();
@@ -59,10 +59,10 @@ TEST_F(CatalogTest, OtherFilesAreSkippedWithAWarning) {
   EXPECT_EQ((*catalog)->maps().size(), 1U);
   EXPECT_TRUE((*catalog)->maps().contains("town"));
   EXPECT_EQ((*catalog)->left_out(), 0U);
-  EXPECT_THAT(warnings_, UnorderedElementsAre(HasSubstr("README.txt: is no milepost map"),
+  EXPECT_THAT(warnings_, UnorderedElementsAre(HasSubstr("README.txt: is not a milepost map"),
                                               HasSubstr("archive: is a directory"),
                                               HasSubstr("empty: is empty"),
-                                              HasSubstr("other.db: is no milepost map")));
+                                              HasSubstr("other.db: is not a milepost map")));
 }
 
 TEST_F(CatalogTest, NameOfTheFileDoesNotDecideWhatIsAMap) {
@@ -70,12 +70,12 @@ TEST_F(CatalogTest, NameOfTheFileDoesNotDecideWhatIsAMap) {
   EXPECT_TRUE((*open())->maps().contains("town"));
 }
 
-// A file beside a good map that cannot be served, and why.
+// A file next to a good map that cannot be served, and the reason.
 class LeftOutTest : public CatalogTest {
  protected:
   LeftOutTest() { write_town(folder_.path() / "good.map"); }
 
-  // The good map is served all the same, and the one reason for `name` is given.
+  // The good map is still served, and the only warning is the reason for `name`.
   void expect_left_out(const std::string& name, const std::string& reason) {
     const auto catalog = open();
     ASSERT_TRUE(catalog.ok()) << catalog.error().line();
@@ -103,12 +103,12 @@ TEST_F(LeftOutTest, EmptyFile) {
 
 TEST_F(LeftOutTest, FileOfAnotherKind) {
   write("town.map", "filename,timestamp_s\n");
-  expect_left_out("town.map", "is no milepost map and is skipped");
+  expect_left_out("town.map", "is not a milepost map and is skipped");
 }
 
 TEST_F(LeftOutTest, DatabaseOfAnotherProgram) {
   change_town("CREATE TABLE t (a)");
-  expect_left_out("town.map", "is no milepost map and is skipped");
+  expect_left_out("town.map", "is not a milepost map and is skipped");
 }
 
 TEST_F(LeftOutTest, Directory) {
@@ -152,7 +152,7 @@ TEST_F(LeftOutTest, HalfCopiedMap) {
   for (const std::uintmax_t bytes :
        {whole - 1, whole / 2, std::uintmax_t{8192}, std::uintmax_t{90}, std::uintmax_t{16}}) {
     fs::resize_file(town_, bytes);
-    expect_left_out("town.map", "is cut off");
+    expect_left_out("town.map", "is truncated");
   }
 }
 
@@ -165,7 +165,7 @@ TEST_F(LeftOutTest, DamagedMap) {
   expect_left_out("town.map", "malformed");
 }
 
-// A length that is damaged is none.
+// A damaged length is ignored.
 TEST_F(LeftOutTest, DamagedHeader) {
   write_town(town_);
   std::fstream file(town_, std::ios::in | std::ios::out | std::ios::binary);
@@ -192,10 +192,10 @@ TEST_F(LeftOutTest, ParametersThatAreNoJson) {
   change_town("UPDATE layers SET parameters = '{' WHERE name = 'walls'");
   expect_left_out("town.map, layer walls", "this is not JSON");
   change_town("UPDATE layers SET parameters = '[]' WHERE name = 'walls'");
-  expect_left_out("town.map, layer walls", "the parameters are no JSON object");
+  expect_left_out("town.map, layer walls", "the parameters are not a JSON object");
 }
 
-// Lists in lists would be more than the stack of those who walk through them can hold.
+// Deeply nested arrays would overflow the stack of code that traverses them.
 TEST_F(LeftOutTest, ParametersThatAreNestedTooDeep) {
   std::string deep = "{\"a\": ";
   for (int i = 0; i < 100'000; ++i) deep += '[';
@@ -212,10 +212,10 @@ TEST_F(LeftOutTest, ParametersThatAreNestedTooDeep) {
 TEST_F(LeftOutTest, LineWithoutLength) {
   write_town(town_);
   change_town("DELETE FROM vertices WHERE segment = 's2'");
-  expect_left_out("town.map, segment s2", "a line has two vertices or more");
+  expect_left_out("town.map, segment s2", "a line needs two or more vertices");
 }
 
-// Such a name has no address, and no JSON text can hold it.
+// Such a name has no URL, and no JSON text can hold it.
 TEST_F(LeftOutTest, NamesInTheMapThatAreNone) {
   write_town(town_);
   change_town("UPDATE segments SET id = CAST(x'73ff' AS TEXT) WHERE id = 's2'");
@@ -230,7 +230,7 @@ TEST_F(LeftOutTest, NamesInTheMapThatAreNone) {
 
 TEST_F(LeftOutTest, NameThatCannotStandInAUrl) {
   write_town(folder_.path() / "my town.map");
-  expect_left_out("my town.map", "the map's name 'my town' cannot stand in a URL");
+  expect_left_out("my town.map", "the map's name 'my town' cannot be used in a URL");
 }
 
 TEST_F(LeftOutTest, CopiesAndPartsOfMaps) {
@@ -281,7 +281,7 @@ TEST_F(CatalogTest, OfTwoMapsOfOneNameWithoutDotMapNoneIsServed) {
                                    AllOf(HasSubstr("/town.db: "), HasSubstr("/town; "))));
 }
 
-// Root may read everything, so a process of another user looks.
+// Root may read everything, so a process of another user reads.
 TEST_F(LeftOutTest, FileThatMayNotBeRead) {
   write_town(town_);
   ASSERT_EQ(chmod(town_.c_str(), 0), 0);
@@ -301,7 +301,7 @@ TEST_F(CatalogTest, OneBadMapAloneIsTheError) {
   const fs::path file = folder_.path() / "town.map";
   write_town(file, 100'000);
   fs::resize_file(file, 8192);
-  EXPECT_THAT(error_line(), HasSubstr("town.map: is cut off"));
+  EXPECT_THAT(error_line(), HasSubstr("town.map: is truncated"));
   EXPECT_THAT(warnings_, ElementsAre());
 }
 
@@ -310,7 +310,7 @@ TEST_F(CatalogTest, BadMapsAloneAreAnErrorWithEachReason) {
   write("b.map", "text");
   EXPECT_THAT(error_line(), HasSubstr(": none of its 2 maps can be served; "));
   EXPECT_THAT(warnings_,
-              ElementsAre(HasSubstr("a.map: is empty"), HasSubstr("b.map: is no milepost map")));
+              ElementsAre(HasSubstr("a.map: is empty"), HasSubstr("b.map: is not a milepost map")));
 }
 
 TEST_F(CatalogTest, MissingDirectoryIsNamed) {

@@ -1,4 +1,4 @@
-// A bare client over a loopback socket: it sends exactly the bytes of a test.
+// A minimal client over a loopback socket: it sends exactly the bytes of a test.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 namespace milepost::server {
 
 struct Reply {
-  int status = 0;                              // 0: the connection ended before a whole header
+  int status = 0;                              // 0: the connection ended before a complete header
   std::map<std::string, std::string> headers;  // names in lower case
-  std::string body;                            // as much as came
-  bool whole = false;                          // the body has the length that was promised
+  std::string body;                            // as much as was received
+  bool whole = false;                          // the body has the stated length
 
   std::string header(const std::string& name) const {
     const auto found = headers.find(name);
@@ -33,9 +33,9 @@ class Connection {
   // False if the peer has closed.
   bool send(std::string_view bytes);
   void send_get(const std::string& target, const std::string& more_headers = "");
-  // The next answer; one to HEAD or 304 has no body.
+  // The next response; one to HEAD or 304 has no body.
   Reply receive(bool to_head = false);
-  // Whether the peer closes without a further byte.
+  // Whether the peer closes without sending another byte.
   bool closed();
   // Some bytes, up to `count`; fewer only when the peer has closed.
   std::string read(std::size_t count);

@@ -16,11 +16,11 @@ namespace milepost::server {
 namespace {
 
 using nlohmann::json;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
-class HandleTest : public testing::Test {
+class HandleTest : public ::testing::Test {
  protected:
   HandleTest() : town_(write_town(folder_.path() / "town.map")) {
     catalog_ = open_catalog(folder_.path());
@@ -36,7 +36,7 @@ class HandleTest : public testing::Test {
     return segment_path() + "/tiles?layer=tracklets&from_m=" + from_m + "&to_m=" + to_m;
   }
 
-  // The indices of the tiles of a range answer.
+  // The indices of the tiles of a range response.
   std::vector<std::uint32_t> tiles(const std::string& from_m, const std::string& to_m) const {
     const Response response = get(range_path(from_m, to_m));
     EXPECT_EQ(response.status, 200U);
@@ -177,7 +177,7 @@ TEST_F(HandleTest, WrongRangesAreToldApart) {
       {"layer=tracklets&from_m=0&to_m=1e999", "parameter to_m: is '1e999'"},
       {"layer=tracklets&from_m=0&from_m=0&to_m=1", "parameter from_m: is given more than once"},
       {"layer=tracklets&from_m=0&to_m=1&x=2", "parameter 'x': is unknown"},
-      {"layer=a%2Fb&from_m=0&to_m=1", "layer 'a/b': is not the form"},
+      {"layer=a%2Fb&from_m=0&to_m=1", "layer 'a/b': is not a valid name"},
   };
   for (const auto& [query, detail] : cases) {
     const Response response = get(segment_path() + "/tiles?" + query);
@@ -289,9 +289,9 @@ TEST_F(HandleTest, WrongNearQueriesAreToldApart) {
       {"near=49,8,110&radius_m=10", "longitude of near: is '8,110'"},
       {"near=nan,8&radius_m=10", "latitude of near: is 'nan'"},
       {"near=x,8&radius_m=10", "latitude of near: is 'x'"},
-      {"near=90.1,8&radius_m=10", "parameter near: lies outside"},
-      {"near=49,180.1&radius_m=10", "parameter near: lies outside"},
-      {"near=inf,8&radius_m=10", "parameter near: lies outside"},
+      {"near=90.1,8&radius_m=10", "parameter near: is out of range"},
+      {"near=49,180.1&radius_m=10", "parameter near: is out of range"},
+      {"near=inf,8&radius_m=10", "parameter near: is out of range"},
       {"near=49,8&radius_m=0", "parameter radius_m: is out of range"},
       {"near=49,8&radius_m=-1", "parameter radius_m: is out of range"},
       {"near=49,8&radius_m=10000.1", "parameter radius_m: is out of range"},
@@ -300,7 +300,7 @@ TEST_F(HandleTest, WrongNearQueriesAreToldApart) {
       {"near=49,8&near=49,8&radius_m=10", "parameter near: is given more than once"},
       {"near=49,8&radius_m=10&limit=1", "parameter 'limit': is unknown here; known are near"},
       {"near=49,8&radius_m=10&", "parameter '': is unknown"},
-      {"near=49,8&radius_m=%3", "'%3' is no percent-encoding"},
+      {"near=49,8&radius_m=%3", "'%3' is not a percent-encoding"},
       {"near=49,8&radius_m=1%0a", "parameter radius_m: holds a control byte"},
   };
   for (const auto& [query, detail] : cases) {

@@ -12,10 +12,10 @@ namespace milepost::server {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-// A pipe of one page. The end that is written to stays open, as LogWriter asks.
-class LogWriterTest : public testing::Test {
+// A pipe of one page. The write end stays open, as LogWriter requires.
+class LogWriterTest : public ::testing::Test {
  protected:
   LogWriterTest() {
     if (pipe(ends_.data()) != 0) abort();
@@ -28,7 +28,7 @@ class LogWriterTest : public testing::Test {
     ends_[0] = -1;
   }
 
-  // What comes out of the pipe up to the end of `last`.
+  // The output of the pipe up to the end of `last`.
   std::string read_until(const std::string& last) const {
     std::string text;
     for (char c = 0; !text.ends_with(last) && ::read(ends_[0], &c, 1) == 1;) text += c;
@@ -43,7 +43,7 @@ class LogWriterTest : public testing::Test {
   std::array<int, 2> ends_{};
 };
 
-// The number in a line that speaks of missing ones; 0 in any other.
+// The number in a line that reports missing lines; 0 for any other.
 std::uint64_t missing_lines(const std::string& text) {
   const std::string start = "milepost-server: ";
   const bool speaks =
@@ -53,7 +53,7 @@ std::uint64_t missing_lines(const std::string& text) {
   return speaks ? std::stoull(text.substr(start.size())) : 0;
 }
 
-// Waits, for the writer has a thread of its own.
+// Waits, because the writer has its own thread.
 void expect_dropped(const LogWriter& writer, std::uint64_t lines) {
   for (int i = 0; i < 3000 && writer.dropped() < lines; ++i) std::this_thread::sleep_for(10ms);
   EXPECT_EQ(writer.dropped(), lines);
@@ -84,7 +84,7 @@ TEST_F(LogWriterTest, NeverWaitsAndSaysWhatIsMissing) {
     const std::uint64_t missing = missing_lines(text);
     reported += missing;
     if (missing == 0) {
-      EXPECT_EQ(text, line(written + reported));  // each gap is told where it is
+      EXPECT_EQ(text, line(written + reported));  // each gap is reported in its place
       ++written;
     }
   }

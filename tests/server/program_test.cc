@@ -22,11 +22,11 @@
 namespace milepost::server {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::MatchesRegex;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 // A running milepost-server, with its two outputs in pipes.
 class Program {
@@ -65,7 +65,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  // The next line of standard output; what there is if it ends.
+  // The next line of standard output; the rest if it ends.
   std::string line() {
     std::string text;
     for (char c = 0; ::read(out_, &c, 1) == 1 && c != '\n';) text += c;
@@ -79,7 +79,7 @@ class Program {
     for (char c = 0; count > 0 && ::read(err_, &c, 1) == 1; count -= c == '\n' ? 1 : 0) text += c;
     return text;
   }
-  // How many bytes wait in standard error.
+  // The number of bytes that are available in standard error.
   int error_bytes() const {
     int bytes = 0;
     ioctl(err_, FIONREAD, &bytes);
@@ -161,7 +161,7 @@ TEST(ProgramTest, WrongCallsExitWith2) {
   expect_wrong_call({"--config", "/nowhere/server.toml"}, "/nowhere/server.toml");
 }
 
-class ProgramWithMapTest : public testing::Test {
+class ProgramWithMapTest : public ::testing::Test {
  protected:
   ProgramWithMapTest() { write_town(maps_.path() / "town.map"); }
 
@@ -229,7 +229,7 @@ TEST_F(ProgramWithMapTest, WhatCannotBeServedExitsWith1) {
   expect_failure({"--maps", maps_.path(), "--listen", "127.0.0.1:0"}, "town.map");
 }
 
-// The most memory that a process has used so far.
+// The peak memory of a process so far.
 long peak_kb(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(status, line);) {
@@ -251,10 +251,10 @@ TEST_F(ProgramWithMapTest, MemoryDoesNotGrowWithTheRange) {
   const long after_one_kb = peak_kb(program.process());
   EXPECT_TRUE(fetch(port, tiles + "?layer=tracklets&from_m=0&to_m=inf").whole);
   EXPECT_GT(after_one_kb, 0);
-  EXPECT_LT(peak_kb(program.process()), after_one_kb + 3 * kTileKb / 2);  // all four would be + 3
+  EXPECT_LT(peak_kb(program.process()), after_one_kb + 3 * kTileKb / 2);  // all four: + 3
 }
 
-// Asks for as many paths that are not there as fill a log of `bytes`.
+// Requests as many missing paths as fill a log of `bytes`.
 void fill_log(std::uint16_t port, std::size_t bytes) {
   const std::string path = '/' + std::string(3000, 'x');
   Connection connection(port);
@@ -306,11 +306,11 @@ TEST_F(ProgramWithMapTest, LogIsWholeAfterAStop) {
   program.signal(SIGTERM);
   EXPECT_EQ(program.wait(), 0);
   const std::string error = program.error();
-  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 11);  // ten answers and the stop
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 11);  // ten responses and the stop
   EXPECT_NE(error.find("stopping on SIGTERM\n"), std::string::npos);
 }
 
-// What standard error may be; the server serves and stops all the same.
+// Kinds of unusable standard error; the server still serves and stops.
 TEST_F(ProgramWithMapTest, LogThatCannotBeWrittenDoesNoHarm) {
   const std::string file = (other_.path() / "log").string();
   for (const std::string& through : {
@@ -327,8 +327,8 @@ TEST_F(ProgramWithMapTest, LogThatCannotBeWrittenDoesNoHarm) {
   }
 }
 
-// A socket that got the number of standard error would get the log, too. (SQLite heeds that by
-// itself, so there is no map.)
+// A socket with the descriptor of standard error would receive the log, too. (SQLite avoids these
+// descriptors itself, so there is no map.)
 TEST_F(ProgramWithMapTest, ClosedDescriptorsAreNotTakenByAnythingElse) {
   Program program({"--maps", other_.path(), "--listen", "127.0.0.1:0"},
                   "exec \"$0\" \"$@\" 0<&- 2>&-");
@@ -366,7 +366,7 @@ TEST_F(ProgramWithMapTest, NothingButBadMapsExitsWith1AndEachReason) {
   Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"});
   EXPECT_EQ(program.output(), "");
   const std::string error = program.error();
-  EXPECT_THAT(error, AllOf(HasSubstr("half.map: is empty"), HasSubstr("town.map: is cut off"),
+  EXPECT_THAT(error, AllOf(HasSubstr("half.map: is empty"), HasSubstr("town.map: is truncated"),
                            HasSubstr("\nmilepost-server: " + maps_.path().string() +
                                      ": none of its 2 maps can be served; ")));
   EXPECT_EQ(program.wait(), 1);
@@ -385,7 +385,7 @@ TEST_F(ProgramWithMapTest, OtherFilesAreNamedInTheLog) {
   EXPECT_THAT(program.line(), HasSubstr("(1 maps)"));
   program.signal(SIGTERM);
   EXPECT_EQ(program.wait(), 0);
-  EXPECT_THAT(program.error(), HasSubstr("README: is no milepost map and is skipped"));
+  EXPECT_THAT(program.error(), HasSubstr("README: is not a milepost map and is skipped"));
 }
 
 }  // namespace

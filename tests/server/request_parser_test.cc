@@ -7,7 +7,7 @@
 namespace milepost::server {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr const char* kRequest =
     "POST /v1/maps?x=%31 HTTP/1.1\r\nHost: test\r\nIf-None-Match: \"a\"\r\nif-none-match: \"b\"\r\n"
@@ -31,7 +31,7 @@ TEST(RequestParserTest, TakesOneRequestAndLeavesTheNext) {
   EXPECT_TRUE(incoming.keep_alive);
 }
 
-// The bytes in pieces of `size`, as they come off a connection.
+// The bytes in pieces of `size`, as received from a connection.
 Incoming parsed_in_pieces(const std::string& bytes, std::size_t size) {
   RequestParser parser({});
   std::string waiting;

@@ -1,4 +1,4 @@
-// What the tests of the routes look at in an answer.
+// Accessors of responses for the tests of the routes.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ inline constexpr const char* kImmutable = "public, max-age=31536000, immutable";
 
 std::string text_of(const Response& response);
 
-// The JSON document of an answer that must be one.
+// The JSON document of a response, which must be one.
 nlohmann::json json_of(const Response& response);
 
-// The status, after a look at the problem document that must come with it.
+// The status, after a check of the problem document that must accompany it.
 unsigned problem_status(const Response& response);
 
 std::string detail_of(const Response& response);

@@ -17,10 +17,10 @@ namespace milepost::server {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
-class ServerTest : public testing::Test {
+class ServerTest : public ::testing::Test {
  protected:
   ServerTest() { spdlog::set_level(spdlog::level::off); }
 
@@ -43,14 +43,14 @@ class ServerTest : public testing::Test {
     return segment_path() + "/tiles?layer=tracklets&from_m=" + std::to_string(from_m) +
            "&to_m=" + std::to_string(to_m);
   }
-  // The frames `first` to `last`, one after the other.
+  // The encoded tiles `first` to `last`, one after the other.
   std::string frames(std::size_t first, std::size_t last) const {
     std::string bytes;
     for (std::size_t i = first; i <= last; ++i) bytes += as_text(town_.frames[i]);
     return bytes;
   }
   bool serves() const { return fetch(port_, "/healthz").body == "ok\n"; }
-  // Whether the server, full now, serves again before long.
+  // Whether the server, now full, soon serves again.
   bool becomes_free() const {
     for (int i = 0; i < 3000; ++i) {
       if (fetch(port_, "/healthz").status == 200) return true;
@@ -193,7 +193,7 @@ TEST_F(ServerTest, OldClientIsUnderstood) {
   EXPECT_TRUE(connection.closed());
 }
 
-// Each of these is answered, and the connection then closed.
+// Each of these gets a response, and the connection is then closed.
 TEST_F(ServerTest, WhatIsNoRequestIsRefused) {
   start();
   const std::vector<std::pair<std::string, int>> cases = {
@@ -223,8 +223,9 @@ TEST_F(ServerTest, WhatIsNoRequestIsRefused) {
   EXPECT_TRUE(serves());
 }
 
-// Where a body ends must be beyond doubt: what one side takes for the body, the other may take for
-// the next request. Each of these carries such a request, which must never be answered.
+// The end of a body must be unambiguous: what one side reads as the body, the other may read as the
+// next request (request smuggling). Each of these carries such a request, which must never be
+// answered.
 TEST_F(ServerTest, FramingInDoubtIsRefusedAndTheRestIsNoRequest) {
   start();
   const std::string smuggled = "GET /v1/maps HTTP/1.1\r\nHost: test\r\n\r\n";
@@ -233,7 +234,7 @@ TEST_F(ServerTest, FramingInDoubtIsRefusedAndTheRestIsNoRequest) {
   const std::string both = "both Content-Length and Transfer-Encoding";
   const std::string length = "Content-Length is not one whole number";
   const std::string twice = "Transfer-Encoding is given more than once";
-  const std::string folded = "goes on in a second line";
+  const std::string folded = "continues on a second line";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"Transfer-Encoding: xchunked\r\n", unknown},
       {"Transfer-Encoding: gzip\r\n", unknown},
@@ -296,7 +297,7 @@ TEST_F(ServerTest, HttpOneNullHasNoChunks) {
       "0\r\n\r\nGET /v1/maps HTTP/1.0\r\n\r\n");
   const Reply reply = connection.receive();
   EXPECT_EQ(reply.status, 400);
-  EXPECT_THAT(reply.body, HasSubstr("HTTP/1.0 knows no Transfer-Encoding"));
+  EXPECT_THAT(reply.body, HasSubstr("HTTP/1.0 has no Transfer-Encoding"));
   EXPECT_TRUE(connection.closed());
 }
 
@@ -312,7 +313,7 @@ TEST_F(ServerTest, ChunkedBodyIsPassedOver) {
   }
 }
 
-// A field after the body is none of the request's.
+// A field after the body is not a field of the request.
 TEST_F(ServerTest, TrailersChangeNothing) {
   start();
   Connection connection(port_);
@@ -374,7 +375,7 @@ TEST_F(ServerTest, HeadersThatOthersMayReadOtherwiseAreRefused) {
   EXPECT_TRUE(serves());
 }
 
-// However the header comes in, its length is that of all of it.
+// The limit applies to the whole header, however it is received.
 TEST_F(ServerTest, HeaderInPiecesHasTheSameLimit) {
   start();
   Connection connection(port_);
@@ -390,12 +391,12 @@ TEST_F(ServerTest, HeaderInPiecesHasTheSameLimit) {
 
 TEST_F(ServerTest, RefusedClientMayGoOnSending) {
   ConnectionLimits limits;
-  limits.linger = 1h;
+  limits.lingering_close = 1h;
   start(1000, limits);
   Connection connection(port_);
   connection.send("GET /healthz HTTP/1.1\r\nHost: test\r\nContent-Length: 100000\r\n\r\n");
   EXPECT_EQ(connection.receive().status, 413);
-  for (int i = 0; i < 10; ++i) {  // a socket that is closed already would answer with a reset
+  for (int i = 0; i < 10; ++i) {  // a socket that is already closed would respond with a reset
     EXPECT_TRUE(connection.send(std::string(10'000, 'x')));
     std::this_thread::sleep_for(5ms);
   }
@@ -417,7 +418,7 @@ TEST_F(ServerTest, DrippingRequestIsClosedInTime) {
   start(1000, limits);
   Connection connection(port_);
   connection.send("GET /healthz HTTP/1.1\r\n");
-  // A byte every 20 ms would keep a limit on silence from ever running out.
+  // With a byte every 20 ms an idle timeout would never expire.
   bool open = true;
   for (int i = 0; i < 3000 && open; ++i) {
     open = connection.send("x");
@@ -444,7 +445,7 @@ TEST_F(ServerTest, ClientThatStopsReadingIsBrokenOff) {
   Connection connection(port_, 4096);
   connection.send_get(range_path(0, 200));
   EXPECT_EQ(connection.read(8), "HTTP/1.1");
-  EXPECT_TRUE(becomes_free());  // the only place is taken until the server gives it up
+  EXPECT_TRUE(becomes_free());  // the only slot is taken until the server releases it
   EXPECT_LT(connection.read(100'000'000).size(), frames(0, 3).size());
 }
 
@@ -486,7 +487,7 @@ TEST_F(ServerTest, TooManyConnectionsAreTurnedAwayAndLaterServed) {
   {
     Connection first(port_);
     Connection second(port_);
-    for (Connection* connection : {&first, &second}) {  // an answer shows that it is counted
+    for (Connection* connection : {&first, &second}) {  // a response shows that it is counted
       connection->send_get("/healthz");
       EXPECT_EQ(connection->receive().status, 200);
     }
@@ -509,7 +510,7 @@ TEST_F(ServerTest, AcceptingGoesOnAfterErrors) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
   Connection connection;
-  // The client's socket is there; no further one can be, so the server cannot accept.
+  // The client's socket exists; no further one can be created, so the server cannot accept.
   rlimit none = before;
   none.rlim_cur = 3;
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
@@ -602,7 +603,8 @@ TEST_F(ServerTest, AddressThatIsNoneIsAnError) {
   settings.address = "localhost";
   const auto server = Server::start(open_catalog(folder_.path()), settings);
   ASSERT_FALSE(server.ok());
-  EXPECT_THAT(server.error().line(), HasSubstr("address localhost: is no IPv4 or IPv6 address"));
+  EXPECT_THAT(server.error().line(),
+              HasSubstr("address localhost: is not an IPv4 or IPv6 address"));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace milepost::server {
 
-// A folder that goes away with the test.
+// A folder that is removed with the test.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -45,7 +45,7 @@ TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes = 
 // Returns its build.
 std::string write_walls(const std::filesystem::path& file, const std::vector<std::uint32_t>& cells);
 
-// Opens a catalog that must be good.
+// Opens a catalog, which must be valid.
 std::shared_ptr<const Catalog> open_catalog(const std::filesystem::path& folder,
                                             unsigned readers = 2);
 

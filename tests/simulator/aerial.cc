@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kFlightM = 500;    // of the plane in which the picture lies; above everything
-constexpr double kExposure = 1.25;  // streets lie in the shade of their houses
+constexpr double kExposure = 1.25;  // brightens streets in the shade of houses
 constexpr int kStripRows = 256;
 constexpr int kBlockColumns = 512;
 
@@ -77,7 +77,7 @@ bool write_strip(GDALDataset& dataset, const cv::Mat& strip, int top) {
                           nullptr) == CE_None;
 }
 
-// Textures that no strip further south shows.
+// Frees textures that are not visible in strips further south.
 void forget_north_of(const Town& town, double north_m) {
   for (const Surface& surface : town.scene.surfaces) {
     if (surface.centre[1] - surface.radius_m > north_m) surface.texture->forget();

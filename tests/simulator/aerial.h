@@ -1,4 +1,4 @@
-// The town from the air: an orthoimage with its georeference, and the true outlines of its houses.
+// Aerial data of the town: a georeferenced orthoimage, and the true outlines of its houses.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,7 @@ Status write_orthoimage(const Town& town, const Lighting& lighting, const OrthoP
                         const std::filesystem::path& path, int threads,
                         const Progress& progress = {});
 
-// GeoJSON in WGS84: one polygon a house, with its height_m and eaves_m above the ground. Errors:
+// GeoJSON in WGS84: one polygon per house, with its height_m and eaves_m above the ground. Errors:
 // io.
 Status write_walls(const Town& town, const std::filesystem::path& path);
 

@@ -76,7 +76,7 @@ TEST(Orthoimage, LiesOnAGridAboutTheOrigin) {
   EXPECT_EQ(transform[3], 180);
   EXPECT_EQ(transform[5], -kPixelM);
   EXPECT_STREQ(image.dataset->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE"), "DEFLATE");
-  // The drives' local frame and the grid agree on where things are.
+  // The drives' local frame and the grid agree on positions.
   OGRSpatialReference wgs84;
   wgs84.importFromEPSG(4326);
   wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);

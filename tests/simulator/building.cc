@@ -227,7 +227,7 @@ class Builder {
     const WallSize size{width_m, height_m};
     const Point outer = foot - inwards_ * (width_m + 0.15);
     const Point inner = foot - inwards_ * 0.15;
-    // Which end is left depends on the side it is read from: towards either way of the street.
+    // Which end is left depends on the viewing side: it faces both directions of the street.
     add_wall(scene_, inner, outer, height_m, texture, size.texels());
     add_wall(scene_, outer + across_ * 0.06, inner + across_ * 0.06, height_m, texture,
              size.texels());

@@ -18,7 +18,7 @@ struct Building {
   // street.
   std::array<cv::Vec2d, 4> footprint;
   double ground_m = 0;      // of the middle of its front
-  double foundation_m = 0;  // how far its walls go down below that, on a slope
+  double foundation_m = 0;  // depth of its walls below that, on a slope
   double eaves_m = 6;       // above the ground
   double ridge_m = 3;       // above the eaves; unused under a flat roof
   Roof roof = Roof::gable;

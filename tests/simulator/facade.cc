@@ -111,7 +111,7 @@ void paint_wall(Canvas& canvas, const cv::Scalar& colour, cv::RNG& random) {
   weather(canvas.image(), 5, 7, random);
 }
 
-// What is to be seen behind a pane: the dark room, the sky's reflection, and often a curtain.
+// The view behind a pane: the dark room, the sky's reflection, and often a curtain.
 void paint_glass(Canvas& canvas, double left, double top, double width, double height,
                  cv::RNG& random) {
   const cv::Scalar dark = varied({70, 60, 50}, 25, random);
@@ -314,7 +314,7 @@ void paint_upper_floors(Canvas& canvas, double ground_floor_m, double floor_m, i
   }
 }
 
-// Rain that ran down from sills and soot near the ground.
+// Rain streaks below sills, and soot near the ground.
 void paint_dirt(Canvas& canvas, cv::RNG& random) {
   cv::Mat& image = canvas.image();
   const int per_m = canvas.texels_per_m();
@@ -337,7 +337,7 @@ void paint_dirt(Canvas& canvas, cv::RNG& random) {
   }
 }
 
-// What firewalls are let for.
+// A painted advertisement on a firewall.
 void paint_advertisement(Canvas& canvas, double left, double top, double width, double height,
                          cv::RNG& random) {
   canvas.fill(left - 0.08, top - 0.08, width + 0.16, height + 0.16, {60, 62, 64});

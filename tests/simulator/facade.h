@@ -8,9 +8,9 @@
 
 namespace milepost::simulator {
 
-// Texels of a metre of what stands beside the road.
+// Texels per metre of objects beside the road.
 inline constexpr int kNearTexelsPerM = 60;
-// The same of what is seen from farther away: side and back walls.
+// The same for more distant surfaces: side and back walls.
 inline constexpr int kFarTexelsPerM = 28;
 
 struct WallSize {

@@ -1,4 +1,4 @@
-// What stands in the street: lamps, signs, bins, bollards, columns.
+// Street furniture: lamps, signs, bins, bollards, columns.
 #pragma once
 
 #include "tests/simulator/scene.h"

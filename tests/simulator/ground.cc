@@ -16,15 +16,15 @@ const cv::Vec3f kKerb(150, 155, 157);
 constexpr double kCrossingM = 3.2;     // length of a zebra crossing along the road
 constexpr double kCrossingGapM = 3.0;  // from the junction
 constexpr double kManholeRadiusM = 0.33;
-constexpr double kCornerM = 5;  // how far kerbs are rounded where roads meet
-constexpr double kReachM = 30;  // from which a road matters
+constexpr double kCornerM = 5;  // radius of kerbs at junctions
+constexpr double kReachM = 30;  // distance within which a road is considered
 
 bool is_inside(double value, double from, double to) { return value >= from && value < to; }
 
-// The place inside a period, [0, period).
+// The phase in a period, [0, period).
 double phase(double value, double period) { return value - std::floor(value / period) * period; }
 
-// The lesser of two, rounded off where they are within `width` of each other.
+// A smooth minimum, rounded where the two are within `width` of each other.
 double smooth_min(double a, double b, double width) {
   const double h = std::max(width - std::abs(a - b), 0.0) / width;
   return std::min(a, b) - h * h * width / 4;
@@ -64,7 +64,7 @@ Ground::Ground(const Network& network, std::uint64_t seed)
     fittings.crossings.push_back(mouth.outwards > 0 ? near : near - kCrossingM);
     const double stop = mouth.along_m + mouth.outwards * (kCrossingGapM + kCrossingM + 1.2);
     fittings.stop_alongs.push_back(stop);
-    fittings.stop_lines.push_back(-mouth.outwards);  // who drives towards the junction stops
+    fittings.stop_lines.push_back(-mouth.outwards);  // for traffic towards the junction
     fittings.arrows.push_back({stop + mouth.outwards * 10, -mouth.outwards * kLaneM});
   }
 }

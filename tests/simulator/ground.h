@@ -1,5 +1,4 @@
-// What the ground of a town looks like from above: roads with markings, kerbs, pavements, yards,
-// grass.
+// The texture of a town's ground: roads with markings, kerbs, pavements, yards, grass.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace milepost::simulator {
 
-// Colours of the ground by place. Immutable, so safe to share between threads.
+// Colours of the ground by position. Immutable, so safe to share between threads.
 class Ground {
  public:
   Ground(const Network& network, std::uint64_t seed);
@@ -25,16 +24,16 @@ class Ground {
     double length_m, width_m;
     float shade;
   };
-  // What lies on one road.
+  // The markings of one road.
   struct Fittings {
     std::vector<Repair> repairs;
     std::vector<RoadPlace> manholes;
-    std::vector<double> crossings;   // where zebra crossings begin
-    std::vector<RoadPlace> arrows;   // their tails; lateral tells the lane
+    std::vector<double> crossings;   // begins of zebra crossings
+    std::vector<RoadPlace> arrows;   // their tails; the lateral offset determines the lane
     std::vector<double> stop_lines;  // signed by the side of the road: + right, - left
     std::vector<double> stop_alongs;
   };
-  // A road near a place, as seen from the place.
+  // A road near a position, relative to the position.
   struct Near {
     std::size_t road;
     RoadPlace place;

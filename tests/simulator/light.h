@@ -8,7 +8,7 @@
 namespace milepost::simulator {
 
 struct Light {
-  double sun_azimuth_deg = 140;  // where the sun stands, clockwise from north
+  double sun_azimuth_deg = 140;  // of the sun, clockwise from north
   double sun_elevation_deg = 42;
   cv::Vec3f sun{1.02F, 1.16F, 1.28F};     // blue, green, red on a surface that faces the sun
   cv::Vec3f sky{0.42F, 0.36F, 0.31F};     // under an open sky
@@ -20,7 +20,7 @@ struct Light {
   Point to_sun() const;  // a unit vector
 };
 
-// Hours that drives are driven at.
+// The light at the times of day of the drives.
 Light morning_light();    // low sun from the east
 Light noon_light();       // high sun, the mapping drive's
 Light afternoon_light();  // two hours later

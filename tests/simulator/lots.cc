@@ -10,7 +10,7 @@ namespace {
 
 using Outline = std::array<cv::Vec2d, 4>;
 
-// Whether one side of `a` parts the two outlines.
+// Whether one side of `a` separates the two outlines.
 bool is_parted_by(const Outline& a, const Outline& b) {
   for (int i = 0; i < 4; ++i) {
     const cv::Vec2d edge = a[(i + 1) % 4] - a[i];
@@ -112,7 +112,7 @@ class Developer {
         side * (road.half_width_m + kKerbM + pavement_width_m(frontage) + lot.setback_m);
     const cv::Vec2d near = road.path.position_at({along_m, lateral});
     const cv::Vec2d far = road.path.position_at({along_m + lot.width_m, lateral});
-    // Who looks at the front from the road sees the far end at the left on the right side.
+    // On the right side of the road, the far end is on the left, seen from the road.
     return build(side > 0 ? far : near, side > 0 ? near : far, lot.depth_m, frontage);
   }
 

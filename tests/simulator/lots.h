@@ -1,4 +1,4 @@
-// Where houses stand: along the roads of a network, clear of every road and of each other.
+// Placement of houses along the roads of a network, clear of every road and of each other.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,10 @@
 
 namespace milepost::simulator {
 
-// Metres from a place to the nearest edge of what belongs to a road (its pavement included);
-// negative on it.
+// Metres from a position to the nearest edge of a road, including its pavement; negative on it.
 double clearance_m(const Network& network, const cv::Vec2d& position);
 
-// Whether a convex outline meets another's.
+// Whether two convex outlines intersect.
 bool overlaps(const std::array<cv::Vec2d, 4>& a, const std::array<cv::Vec2d, 4>& b);
 
 std::vector<Building> make_buildings(const Network& network, std::uint64_t seed);

@@ -1,4 +1,4 @@
-// milepost-simulator: makes up a town and records drives and an orthoimage of it.
+// milepost-simulator: generates a town and records drives and an orthoimage of it.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -106,7 +106,7 @@ bool holds(const std::vector<T>& values, const T& value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-// The runs that are asked for. Errors: invalid_input for a name that is none.
+// The requested runs. Errors: invalid_input for an unknown name.
 Result<std::vector<RunPlan>> chosen_runs(const Options& options, const std::vector<RunPlan>& all) {
   for (const auto& [names, member, what] : {std::tuple{&options.routes, &RunPlan::route, "route"},
                                             std::tuple{&options.drives, &RunPlan::name, "drive"}}) {
@@ -195,18 +195,13 @@ int run(const Options& options) {
     list(all);
     return kExitDone;
   }
-  if (options.out.empty() && options.ortho.empty() && options.walls.empty()) {
-    std::cerr << kProgram << ": --out, --ortho or --walls is required; see '" << kProgram
-              << " --help'\n";
-    return kExitWrongCall;
-  }
   const auto runs = chosen_runs(options, all);
   if (!runs) {
     fail(kProgram, runs.error());
     return kExitWrongCall;
   }
   if (const Status free = check_files(options); !free) return fail(kProgram, free.error());
-  cv::setNumThreads(1);  // one picture a thread
+  cv::setNumThreads(1);  // one picture per thread
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int threads = options.threads > 0 ? options.threads : cores;
   catch_stop_signals();
@@ -227,6 +222,10 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app(kDescription, kProgram);
   add_options(app, options);
-  if (const auto exit_code = parse_words(app, {argv + 1, argv + argc})) return *exit_code;
+  app.callback([&options] {
+    const bool writes = !options.out.empty() || !options.ortho.empty() || !options.walls.empty();
+    if (!options.list && !writes) throw CLI::RequiredError("--out, --ortho or --walls");
+  });
+  if (const auto exit_code = parse_command_line(app, argc, argv)) return *exit_code;
   return run(options);
 }

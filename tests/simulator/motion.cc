@@ -8,7 +8,7 @@ namespace milepost::simulator {
 namespace {
 
 constexpr double kStepM = 0.5;
-constexpr double kSidewaysMps2 = 2.0;  // what passengers bear in a curve
+constexpr double kSidewaysMps2 = 2.0;  // comfortable lateral acceleration in a curve
 constexpr double kSpeedingUpMps2 = 1.2;
 constexpr double kBrakingMps2 = 1.9;
 constexpr double kWalkingMps = 1.8;
@@ -25,7 +25,7 @@ Motion::Motion(Path path, double lane_m, const MotionPlan& plan)
   }
 }
 
-// What the road and the driver's mood allow, then what the engine and the brakes can do.
+// The limits of the road and the driver first, then those of the engine and the brakes.
 std::vector<double> Motion::speeds() const {
   const auto count = static_cast<std::size_t>(std::ceil((plan_.to_m - plan_.from_m) / kStepM)) + 1;
   std::vector<double> speed(count);

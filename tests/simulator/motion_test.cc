@@ -38,7 +38,7 @@ TEST(Motion, SlowsDownWhereItIsToldToAndInCurves) {
   EXPECT_LT(motion.speed_mps_at(motion.time_s_at(path.place_of({0, 200}).along_m)), 5.2);
 }
 
-TEST(Motion, TimesAndAlongsAgree) {
+TEST(Motion, TimesAndArcLengthsAgree) {
   const Network network = make_network(1);
   const RunPlan run = make_runs(network, 1, 10000).front();
   const Motion motion = motion_of(network, run);
@@ -61,7 +61,7 @@ TEST(Motion, ChangesLanesAsPlanned) {
   const auto lateral = [&](double along) {
     return path.place_of(motion.position_at(along)).lateral_m - kLaneM;
   };
-  const double slack_m = 0.16;  // the vehicle swings in its lane
+  const double slack_m = 0.16;  // the vehicle sways in its lane
   EXPECT_NEAR(lateral(out.from_m), -0.3, slack_m);
   EXPECT_NEAR(lateral(out.from_m + out.over_m), -0.3 - 2 * kLaneM, slack_m);
   EXPECT_NEAR(lateral(back.from_m), -0.3 - 2 * kLaneM, slack_m);

@@ -35,9 +35,9 @@ std::vector<Bend> around(const cv::Vec2d& centre) {
   return bends;
 }
 
-// Where a road's middle enters or leaves another road's carriageway.
+// Adds the points where a road's middle enters or leaves another road's carriageway.
 void add_mouths(Network& network) {
-  constexpr double kStepM = 0.1;
+  constexpr double kMouthStepM = 0.1;
   for (std::size_t i = 0; i < network.roads.size(); ++i) {
     const Road& road = network.roads[i];
     for (std::size_t j = 0; j < network.roads.size(); ++j) {
@@ -48,7 +48,7 @@ void add_mouths(Network& network) {
         return std::abs(other.path.place_of(at).lateral_m) < other.half_width_m;
       };
       bool was_inside = is_inside(0);
-      for (double along = kStepM; along < road.path.length_m(); along += kStepM) {
+      for (double along = kMouthStepM; along < road.path.length_m(); along += kStepM) {
         const bool inside = is_inside(along);
         if (inside != was_inside) network.mouths.push_back({i, along, inside ? -1.0 : 1.0});
         was_inside = inside;

@@ -1,4 +1,4 @@
-// The town's roads, where they meet, and the routes that drives take.
+// The town's roads, their junctions, and the routes of drives.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace milepost::simulator {
 
-// What stands along a stretch of road.
+// The kind of development along a stretch of road.
 enum class Frontage {
   canyon,  // tall houses wall to wall, shops
   avenue,  // houses of two or three floors, front gardens, trees
@@ -38,14 +38,14 @@ struct Road {
 inline constexpr double kKerbM = 0.16;
 double pavement_width_m(Frontage frontage);
 
-// A place where the carriageway of one road opens onto another's.
+// A point where the carriageway of one road opens onto another's.
 struct Mouth {
   std::size_t road = 0;
   double along_m = 0;   // of `road`, at the other road's edge
-  double outwards = 1;  // the sign of the along that leads away from the junction
+  double outwards = 1;  // the sign of the change of arc length away from the junction
 };
 
-// A line to drive, in the middle of the road; the lane lies kLaneM to its right.
+// The line of a route, in the middle of the road; the lane is kLaneM to its right.
 struct Route {
   std::string name;
   Path path;
@@ -60,10 +60,10 @@ struct Network {
   std::vector<Route> routes;
   cv::Vec2d south_west, north_east;  // the town's bounds
 
-  const Route* route(const std::string& name) const;  // null if there is none of this name
+  const Route* route(const std::string& name) const;  // null for an unknown name
 };
 
-// The same plan for every seed; where exactly the roads lie and how high the hill is differ.
+// The same plan for every seed; the exact positions of roads and the height of the hill differ.
 Network make_network(std::uint64_t seed);
 
 }  // namespace milepost::simulator

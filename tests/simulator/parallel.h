@@ -1,4 +1,4 @@
-// Work on numbered pieces that do not depend on each other.
+// Parallel execution of independent tasks.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace milepost::simulator {
 
-// Called after each piece with the number of pieces done and of all; from one thread at a time.
-// Returns whether to go on.
+// Called after each task with the number of tasks done and of all; from one thread at a time.
+// Returns whether to continue.
 using Progress = std::function<bool(std::size_t, std::size_t)>;
 
 // Calls `make` (index -> Status) for each index below `count`, on `threads` threads; the first

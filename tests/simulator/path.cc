@@ -8,8 +8,6 @@
 namespace milepost::simulator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double heading_of(const cv::Vec2d& direction) { return std::atan2(direction[0], direction[1]); }
 
 }  // namespace
@@ -34,7 +32,7 @@ Path Path::through(const std::vector<Bend>& bends) {
       break;
     }
     const cv::Vec2d out = bends[i + 1].at - bends[i].at;
-    const double turn = std::remainder(heading_of(out) - heading, 2 * kPi);
+    const double turn = std::remainder(heading_of(out) - heading, 2 * std::numbers::pi);
     const double cut_m = bends[i].radius_m * std::tan(std::abs(turn) / 2);
     const cv::Vec2d arc_start = bends[i].at - in * (cut_m / cv::norm(in));
     path.append(cv::norm(arc_start - at), 0, at, heading);
@@ -47,7 +45,7 @@ Path Path::through(const std::vector<Bend>& bends) {
 
 Path Path::circle(const cv::Vec2d& centre, double radius_m) {
   Path path;
-  path.append(2 * kPi * radius_m, -1 / radius_m, centre + cv::Vec2d(radius_m, 0), 0);
+  path.append(2 * std::numbers::pi * radius_m, -1 / radius_m, centre + cv::Vec2d(radius_m, 0), 0);
   return path;
 }
 
@@ -56,7 +54,7 @@ Path Path::reversed() const {
   for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) {
     const double heading = piece->heading_rad + piece->curvature_per_m * piece->length_m;
     path.append(piece->length_m, -piece->curvature_per_m, point_of(*piece, piece->length_m),
-                heading + kPi);
+                heading + std::numbers::pi);
   }
   return path;
 }
@@ -101,7 +99,8 @@ double Path::nearest_of(const Piece& piece, const cv::Vec2d& position) {
         (piece.start + right_of(piece.heading_rad) * (1 / k) - position) * side;
     const double heading = std::atan2(-to_centre[1], to_centre[0]);
     const double half = piece.length_m * std::abs(k) / 2;
-    const double turned = std::remainder((heading - piece.heading_rad) * side - half, 2 * kPi);
+    const double turned =
+        std::remainder((heading - piece.heading_rad) * side - half, 2 * std::numbers::pi);
     local_m = (turned + half) / std::abs(k);
   }
   return std::clamp(local_m, 0.0, piece.length_m);

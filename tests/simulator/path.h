@@ -1,4 +1,4 @@
-// A smooth line in plan: straights joined by arcs, measured by arc length.
+// A smooth plane curve: straights joined by arcs, parametrized by arc length.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace milepost::simulator {
 
-// Metres along a path from its start, and to the right of it.
+// Frenet coordinates: arc length from a path's start, and lateral offset to the right of it.
 struct RoadPlace {
   double along_m = 0;
   double lateral_m = 0;
 };
 
-// A point that a path is drawn to, and the radius that rounds it off.
+// A vertex of a path, and the radius of the arc that rounds it.
 struct Bend {
   cv::Vec2d at;  // east, north
   double radius_m = 0;
@@ -25,8 +25,8 @@ cv::Vec2d right_of(double heading_rad);
 
 class Path {
  public:
-  // From the first bend to the last by straights that touch the arcs between them.
-  // REQUIRES: at least two bends; the arcs have room on the straights.
+  // From the first bend to the last by straights that are tangent to the arcs between them.
+  // REQUIRES: at least two bends; the arcs fit on the straights.
   static Path through(const std::vector<Bend>& bends);
   // Once around, counter-clockwise, from the circle's easternmost point.
   static Path circle(const cv::Vec2d& centre, double radius_m);
@@ -34,11 +34,11 @@ class Path {
   Path reversed() const;
 
   double length_m() const { return pieces_.back().from_m + pieces_.back().length_m; }
-  // Before the start and after the end the path goes on as it begins and ends.
+  // Before the start and after the end the path is extrapolated.
   cv::Vec2d position_at(const RoadPlace& place) const;
   double heading_rad_at(double along_m) const;
   double curvature_per_m_at(double along_m) const;  // positive to the right
-  // The nearest point of the path: its along, and how far the position lies off it, negative to
+  // The nearest point of the path: its arc length, and the position's lateral offset, negative to
   // the left.
   RoadPlace place_of(const cv::Vec2d& position) const;
 

@@ -73,7 +73,7 @@ class Gardener {
     }
   }
 
-  // Hedges and walls between the pavement and what is not built on.
+  // Hedges and walls between the pavement and undeveloped ground.
   void add_garden_edges() {
     constexpr double kPieceM = 3;
     for (const Road& road : site_.network().roads) {

@@ -8,7 +8,7 @@
 
 namespace milepost::simulator {
 
-// Trees along streets, on the roundabout, in yards and fields; hedges and walls before gardens.
+// Trees along streets, on the roundabout, in yards and fields; hedges and walls of front gardens.
 void plant(Scene& scene, const Site& site, std::uint64_t seed);
 
 }  // namespace milepost::simulator

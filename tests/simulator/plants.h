@@ -8,7 +8,7 @@
 
 namespace milepost::simulator {
 
-// What leaves look like: a few textures that all plants share.
+// Textures of foliage, shared by all plants.
 class Foliage {
  public:
   explicit Foliage(std::uint64_t seed);
@@ -37,7 +37,7 @@ struct Tree {
 
 void add_tree(Scene& scene, const Tree& tree, const Foliage& foliage);
 
-// Far woods all around: what closes the view where no house does.
+// Distant woods all around, which close the view where no house does.
 void add_far_woods(Scene& scene, const cv::Vec2d& centre, double distance_m, std::uint64_t seed);
 
 }  // namespace milepost::simulator

@@ -64,7 +64,7 @@ Point Projection::seen_at(const Point& point) const {
           -offset.dot(forward_)};
 }
 
-// The part along `axis` of a pinhole's ray, or of where a parallel ray starts, by pixel.
+// The component along `axis` of a pinhole's ray, or of a parallel ray's origin, by pixel.
 LinearInPixel Projection::ray_along(const Point& axis) const {
   const double across = right_.dot(axis) / focal_px_[0];
   const double down = down_.dot(axis) / focal_px_[1];
@@ -72,13 +72,13 @@ LinearInPixel Projection::ray_along(const Point& axis) const {
   return {ahead - principal_px_[0] * across - principal_px_[1] * down, across, down};
 }
 
-cv::Point2d Projection::pixel_of(const Point& from_position) const {
+cv::Point2d Projection::project(const Point& from_position) const {
   const double depth = is_pinhole_ ? from_position.dot(forward_) : 1;
   return {principal_px_[0] + focal_px_[0] * from_position.dot(right_) / depth,
           principal_px_[1] + focal_px_[1] * from_position.dot(down_) / depth};
 }
 
-// A quick no for most of what is out of the picture, by the ball that holds the surface.
+// Quick rejection of most surfaces outside of the picture, by the bounding sphere.
 bool Projection::may_see(const Surface& surface) const {
   const Point offset = surface.centre - position_;
   const double across = offset.dot(right_);
@@ -131,14 +131,14 @@ std::optional<SeenSurface> Projection::see(const Surface& surface) const {
     const Point a = corners[i] - position_;
     const Point b = corners[(i + 1) % surface.corner_count] - position_;
     if (!is_pinhole_) {
-      seen.outline[seen.corner_count++] = pixel_of(a);
+      seen.outline[seen.corner_count++] = project(a);
       continue;
     }
     const double za = a.dot(forward_) - kNearM;
     const double zb = b.dot(forward_) - kNearM;
-    if (za >= 0) seen.outline[seen.corner_count++] = pixel_of(a);
+    if (za >= 0) seen.outline[seen.corner_count++] = project(a);
     if ((za >= 0) != (zb >= 0)) {
-      seen.outline[seen.corner_count++] = pixel_of(a + (b - a) * (za / (za - zb)));
+      seen.outline[seen.corner_count++] = project(a + (b - a) * (za / (za - zb)));
     }
   }
   if (seen.corner_count < 3) return std::nullopt;

@@ -1,4 +1,4 @@
-// How a camera, the sun or an aerial camera sees flat surfaces: pinhole and parallel projections.
+// Pinhole and parallel projections of planar surfaces, for cameras, the sun and aerial pictures.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace milepost::simulator {
 
-// Where a camera stands and looks.
+// The pose of a camera.
 struct Pose {
   Point position;
   double heading_deg = 0;  // clockwise from north
@@ -34,17 +34,17 @@ struct LinearInPixel {
   }
 };
 
-// A surface as it is seen. Behind a pinhole, 1/depth, u/depth and v/depth are linear in the pixel;
-// in a parallel projection depth, u and v are. `nearness` is 1/depth or -depth: greater is nearer.
+// A projected surface. For a pinhole, 1/depth, u/depth and v/depth are linear in the pixel; for a
+// parallel projection depth, u and v are. `nearness` is 1/depth or -depth: greater is nearer.
 struct SeenSurface {
   const Surface* surface = nullptr;
-  LinearInPixel nearness, u, v;  // u and v over depth behind a pinhole
-  double texels_per_px = 0;      // over depth behind a pinhole; seen face on
+  LinearInPixel nearness, u, v;  // for a pinhole, u and v divided by depth
+  double texels_per_px = 0;      // for a pinhole, divided by depth; for a frontal view
   std::array<cv::Point2d, 8> outline;
   int corner_count = 0;
 };
 
-// Pixels are counted at their centres: the top left one's is (0, 0).
+// Pixel coordinates refer to pixel centres: that of the top left one is (0, 0).
 class Projection {
  public:
   static Projection pinhole(const Camera& camera, const Pose& pose);
@@ -61,20 +61,20 @@ class Projection {
   Point ray(double x_px, double y_px) const;
   // The point of a surface that a pixel shows.
   Point point_at(const SeenSurface& seen, double x_px, double y_px) const;
-  // Where a point is seen. In a parallel projection only: pixel x, pixel y, nearness.
+  // The projection of a point: pixel x, pixel y, nearness. In a parallel projection only.
   Point seen_at(const Point& point) const;
-  // Nothing where the surface is edge on or out of the picture.
+  // Nothing if the surface is edge-on or out of the picture.
   std::optional<SeenSurface> see(const Surface& surface) const;
 
  private:
   bool may_see(const Surface& surface) const;
-  cv::Point2d pixel_of(const Point& from_position) const;
+  cv::Point2d project(const Point& from_position) const;
   LinearInPixel ray_along(const Point& axis) const;
 
   bool is_pinhole_ = true;
   Point position_;  // of the pinhole, or of pixel (0, 0)
   Point right_, down_, forward_;
-  cv::Vec2d focal_px_;  // pixels a metre, in a parallel projection
+  cv::Vec2d focal_px_;  // pixels per metre, in a parallel projection
   cv::Vec2d principal_px_;
   cv::Size size_;
 };

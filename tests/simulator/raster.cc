@@ -53,7 +53,7 @@ void Raster::add(const SeenSurface& seen, bool is_pinhole, std::int32_t index) {
     top = std::min(top, seen.outline[i].y);
     bottom = std::max(bottom, seen.outline[i].y);
   }
-  const auto sample = [this](double px, int end) {  // the first sample at or after a pixel place
+  const auto sample = [this](double px, int end) {  // the first sample at or after a pixel position
     return static_cast<int>(std::clamp(std::ceil((px + 0.5) * per_side_ - 0.5), 0.0, end + 0.0));
   };
   const int end_row = sample(bottom, rows_);

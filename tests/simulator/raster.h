@@ -1,4 +1,4 @@
-// Which surface lies in front at each sample of a picture.
+// A z-buffer: the front surface at each sample of a picture.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class Raster {
   // Each pixel has `samples_per_side` squared samples, spread evenly.
   Raster(const cv::Size& size_px, int samples_per_side);
 
-  // Notes the samples at which the surface lies in front of all that was added before. Where its
+  // Records the samples at which the surface is in front of all that was added before. Where its
   // texture is cut out, the share of a pixel's samples is the texture's opacity.
   void add(const SeenSurface& seen, bool is_pinhole, std::int32_t index);
 

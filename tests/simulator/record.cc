@@ -18,16 +18,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kCameraHeightM = 1.5;
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr int kJpegQuality = 93;
-constexpr double kPositionMemoryM = 15;  // over which noisy positions drift
+constexpr double kPositionMemoryM = 15;  // correlation length of position noise
 
-// Everything about a frame but its picture.
+// The data of a frame except its picture.
 struct Shot {
   double time_s = 0;
   double along_m = 0;
   Pose pose;
-  cv::Vec2d position_error;  // of what is written
+  cv::Vec2d position_error;  // of the written position
   std::uint64_t seed = 0;    // of the picture's noise
 };
 
@@ -141,7 +140,8 @@ Status record(const Town& town, const Lighting& lighting, const RunPlan& run,
   fs::create_directories(folder / drive.images, error);
   if (error) {
     return Error{ErrorCode::io, (folder / drive.images).string(),
-                 "cannot be made (" + error.message() + ")", "check the path and the permissions"};
+                 "cannot be created (" + error.message() + ")",
+                 "check the path and the permissions"};
   }
   const Motion motion(path_of(town.network, run), kLaneM, run.motion);
   const Traffic traffic(town.network, run);
@@ -162,7 +162,7 @@ Status record(const Town& town, const Lighting& lighting, const RunPlan& run,
     drive.frames.push_back(
         {frame_name(i), shot.time_s, geo_from_point(written), wrapped_360(shot.pose.heading_deg)});
   }
-  cv::RNG random = seeded(~run.seed);  // apart from the pictures' noise
+  cv::RNG random = seeded(~run.seed);  // independent of the pictures' noise
   if (run.has_receiver) drive.gps = receive(motion, *town.sky_view, random);
   if (run.has_odometer) drive.odometry = measure_wheels(motion, random);
   return write_drive(drive, folder);

@@ -10,11 +10,11 @@
 
 namespace milepost::simulator {
 
-// Renders the run's frames on `threads` threads and writes the drive into `folder`; tables come
-// last, so a folder that was not finished is no drive. The same town and run give the same bytes,
-// whatever the number of threads.
-// Errors: io; invalid_input for a run that is no drive (no way, no spacing, no speed, no such
-// route); cancelled.
+// Renders the run's frames on `threads` threads and writes the drive into `folder`; tables are
+// written last, so an unfinished folder is not a drive. The same town and run give the same bytes
+// for any number of threads.
+// Errors: io; invalid_input for an invalid run (no distance, no spacing, no speed, no such route);
+// cancelled.
 Status record(const Town& town, const Lighting& lighting, const RunPlan& run,
               const std::filesystem::path& folder, int threads, const Progress& progress = {});
 

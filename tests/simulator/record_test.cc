@@ -20,19 +20,19 @@ namespace {
 using milepost::testing::TempFolder;
 using ::testing::HasSubstr;
 
-// Made once: a town takes a second or two.
-const Town& town() {
+// Generated once: a town takes a second or two.
+const Town& recorded_town() {
   static const Town made = make_town(1);
   return made;
 }
-const Lighting& lighting() {
-  static const Lighting made = light_town(town(), noon_light());
+const Lighting& recorded_lighting() {
+  static const Lighting made = light_town(recorded_town(), noon_light());
   return made;
 }
 
 // The first metres of a drive, through a small camera.
 RunPlan short_run(const std::string& name, double length_m = 10) {
-  for (RunPlan run : make_runs(town().network, town().seed, length_m)) {
+  for (RunPlan run : make_runs(recorded_town().network, recorded_town().seed, length_m)) {
     run.camera = {150, 125, 89.4, 100, 75, 62.5};
     if (run.name == name) return run;
   }
@@ -53,7 +53,7 @@ std::map<std::string, std::string> content_of(const fs::path& folder) {
 
 std::map<std::string, std::string> recorded(const RunPlan& run, int threads) {
   const TempFolder folder;
-  const Status status = record(town(), lighting(), run, folder.path(), threads);
+  const Status status = record(recorded_town(), recorded_lighting(), run, folder.path(), threads);
   EXPECT_TRUE(status.ok()) << status.error().line();
   return content_of(folder.path());
 }
@@ -73,7 +73,7 @@ TEST(Record, IsReadBackAsADrive) {
     SCOPED_TRACE(name);
     const RunPlan run = short_run(name);
     const TempFolder folder;
-    ASSERT_TRUE(record(town(), lighting(), run, folder.path(), 2).ok());
+    ASSERT_TRUE(record(recorded_town(), recorded_lighting(), run, folder.path(), 2).ok());
     const Result<Drive> drive = read_drive(folder.path());
     ASSERT_TRUE(drive.ok()) << drive.error().line();
     EXPECT_EQ(drive->name, run.name);
@@ -90,24 +90,27 @@ TEST(Record, IsReadBackAsADrive) {
 TEST(Record, MapFramesStandTwoMetresApart) {
   const TempFolder folder;
   const RunPlan run = short_run("town-main-map", 20);
-  ASSERT_TRUE(record(town(), lighting(), run, folder.path(), 2).ok());
+  ASSERT_TRUE(record(recorded_town(), recorded_lighting(), run, folder.path(), 2).ok());
   const Result<Drive> drive = read_drive(folder.path());
   ASSERT_TRUE(drive.ok()) << drive.error().line();
   ASSERT_EQ(drive->frames.size(), 10U);
-  const Path& path = town().network.route("town-main")->path;
+  const Path& path = recorded_town().network.route("town-main")->path;
   const LocalFrame frame(kOrigin);
   for (std::size_t i = 0; i < drive->frames.size(); ++i) {
     const EnuPoint at = frame.enu_from_geo(drive->frames[i].position);
     const RoadPlace place = path.place_of({at.east_m, at.north_m});
     EXPECT_NEAR(place.along_m, run.motion.from_m + 2.0 * static_cast<double>(i), 0.02);
     EXPECT_NEAR(place.lateral_m, kLaneM, 0.001);
-    EXPECT_NEAR(at.up_m, town().network.terrain.height_m({at.east_m, at.north_m}) + 1.5, 0.02);
+    EXPECT_NEAR(at.up_m, recorded_town().network.terrain.height_m({at.east_m, at.north_m}) + 1.5,
+                0.02);
   }
 }
 
 TEST(Record, QueryFramesComeAtUnevenTimes) {
   const TempFolder folder;
-  ASSERT_TRUE(record(town(), lighting(), short_run("street-query", 30), folder.path(), 2).ok());
+  ASSERT_TRUE(
+      record(recorded_town(), recorded_lighting(), short_run("street-query", 30), folder.path(), 2)
+          .ok());
   const Result<Drive> drive = read_drive(folder.path());
   ASSERT_TRUE(drive.ok()) << drive.error().line();
   double shortest = 1e9, longest = 0;
@@ -139,11 +142,11 @@ TEST(Record, TellsItsProgressAndStopsWhenTold) {
     seen.push_back(done);
     return true;
   };
-  ASSERT_TRUE(record(town(), lighting(), run, folder.path(), 2, all).ok());
+  ASSERT_TRUE(record(recorded_town(), recorded_lighting(), run, folder.path(), 2, all).ok());
   EXPECT_THAT(seen, ::testing::ElementsAre(1, 2, 3, 4, 5));
   const TempFolder stopped;
   const Progress none = [](std::size_t, std::size_t) { return false; };
-  const Status status = record(town(), lighting(), run, stopped.path(), 2, none);
+  const Status status = record(recorded_town(), recorded_lighting(), run, stopped.path(), 2, none);
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().code, ErrorCode::cancelled);
   EXPECT_FALSE(read_drive(stopped.path()).ok());
@@ -153,22 +156,22 @@ TEST(Record, RefusesARunThatIsNoDrive) {
   RunPlan run = short_run("street-map");
   run.motion.cruise_mps = 0;
   const TempFolder folder;
-  const Status status = record(town(), lighting(), run, folder.path(), 1);
+  const Status status = record(recorded_town(), recorded_lighting(), run, folder.path(), 1);
   ASSERT_FALSE(status.ok());
   EXPECT_THAT(status.error().line(), HasSubstr("street-map: the run has no way, spacing or speed"));
   run.route = "nowhere";
-  EXPECT_THAT(record(town(), lighting(), run, folder.path(), 1).error().line(),
+  EXPECT_THAT(record(recorded_town(), recorded_lighting(), run, folder.path(), 1).error().line(),
               HasSubstr("there is no route nowhere"));
 }
 
 TEST(Record, SaysWhereItCannotWrite) {
   const TempFolder folder;
   std::ofstream(folder.path() / "file") << "x";
-  const Status status =
-      record(town(), lighting(), short_run("street-map"), folder.path() / "file" / "drive", 1);
+  const Status status = record(recorded_town(), recorded_lighting(), short_run("street-map"),
+                               folder.path() / "file" / "drive", 1);
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().code, ErrorCode::io);
-  EXPECT_THAT(status.error().line(), HasSubstr("file/drive/frames: cannot be made"));
+  EXPECT_THAT(status.error().line(), HasSubstr("file/drive/frames: cannot be created"));
 }
 
 }  // namespace

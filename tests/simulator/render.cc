@@ -35,7 +35,7 @@ bool is_shaded(const Shade& shade, const Point& point, const Point& to_sun) {
   return enter < leave;
 }
 
-// Bright colours are bent below white, as a camera's film curve does.
+// Bright colours are compressed below white, as by a camera's tone curve.
 float exposed(float value) {
   constexpr float kKnee = 190;
   constexpr float kRange = 255 - kKnee;
@@ -61,7 +61,7 @@ class Shader {
     if (!lighting_.sky) return colour;
     const Point point = projection_.point_at(seen, x_px, y_px);
     const cv::Vec3f light = light_at(*seen.surface, point);
-    // Colours are stored with a gamma of two, so light works by its square root.
+    // Colours are stored with a gamma of two, so light is applied by its square root.
     cv::Vec3f result;
     for (int i = 0; i < 3; ++i) result[i] = exposed(colour[i] * std::sqrt(light[i]));
     if (!projection_.is_pinhole()) return result;

@@ -16,7 +16,7 @@
 
 namespace milepost::simulator {
 
-// An upright box that moves: it shades what lies behind it, seen from the sun.
+// A moving upright box, which casts a shadow.
 struct Shade {
   Point centre;       // of its floor
   cv::Vec2d forward;  // a unit vector east, north
@@ -25,25 +25,25 @@ struct Shade {
   double height_m = 0;
 };
 
-// How a scene is lit. Without a sun each texture keeps its own colours.
+// The lighting of a scene. Without a sun each texture keeps its own colours.
 struct Lighting {
   Light light;
   std::shared_ptr<const Sky> sky;
   std::shared_ptr<const ShadowMap> shadows;
   std::shared_ptr<const SkyView> sky_view;
-  std::function<double(const cv::Vec2d&)> ground_m;  // height of the ground at a place
+  std::function<double(const cv::Vec2d&)> ground_m;  // height of the ground at a position
 };
 
 Lighting even_lighting();
 
-// What moves, at one instant.
+// Moving objects, at one instant.
 struct Moving {
   std::vector<Surface> surfaces;
   std::vector<Shade> shades;
 };
 
-// The 8-bit BGR picture; a function of its arguments alone. Each pixel is the mean of what it
-// covers: edges from four samples, textures filtered by the pixel's footprint.
+// The 8-bit BGR picture; depends only on the arguments. Each pixel is the mean of its area: edges
+// from four samples, textures filtered by the pixel's footprint.
 cv::Mat render(const Scene& scene, const Lighting& lighting, const Projection& projection,
                const Moving& moving = {});
 cv::Mat render(const Scene& scene, const Lighting& lighting, const Camera& camera, const Pose& pose,

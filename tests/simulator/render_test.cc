@@ -104,10 +104,10 @@ TEST(Render, DetailFinerThanAPixelFades) {
       checkers.at<cv::Vec3b>(y, x) = (x + y) % 2 == 0 ? cv::Vec3b::all(0) : cv::Vec3b::all(255);
     }
   }
-  const Scene scene = wall_ahead(30, 10, 10, checkers);  // five texels a pixel
+  const Scene scene = wall_ahead(30, 10, 10, checkers);  // five texels per pixel
   cv::Scalar mean, deviation;
   for (const double heading_deg : {0.0, 30.0}) {
-    // Seen straight, and past at a slant from beside the wall's edge.
+    // A frontal view, and an oblique one from beside the wall's edge.
     const Point eye = heading_deg == 0 ? Point(0, 0, 0) : Point(-12, 22, 0);
     const cv::Mat picture = gray(picture_of(scene, {eye, heading_deg}));
     const double x = heading_deg == 0 ? 300 : 300 + 357.5 * std::tan((56.31 - 30) * CV_PI / 180);
@@ -118,7 +118,7 @@ TEST(Render, DetailFinerThanAPixelFades) {
   }
 }
 
-// Scale against depth: what the tracklet method lives on.
+// Scale against depth: the basis of the tracklet method.
 
 constexpr double kWallM = 40;  // north
 

@@ -1,4 +1,4 @@
-// Procedural roofs and what hangs on and stands before houses.
+// Procedural roofs, and fittings on and in front of houses.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* kQuickRoute = "street";
 
-// Where a route's drives begin and end.
+// The begin and end of a route's drives.
 struct Leg {
   const char* route;
   double from_m, to_m;
@@ -43,7 +43,7 @@ RunPlan map_run(const Leg& leg, double length_m, std::uint64_t seed) {
   return run;
 }
 
-// A later drive by another hand: frames by time, some of them late or lost.
+// A later drive by another driver: frames by time, some of them late or lost.
 RunPlan query_run(const Leg& leg, double length_m, std::uint64_t seed) {
   RunPlan run = plain_run(leg, length_m, seed);
   run.motion.from_m += std::min(3.0, length_m / 8);
@@ -108,7 +108,7 @@ RunPlan traffic_query(const Leg& leg, double length_m, std::uint64_t seed) {
   return run;
 }
 
-// The same stretch of road, the other way.
+// The same stretch of road in the opposite direction.
 RunPlan back_query(const Leg& leg, double route_m, double length_m, std::uint64_t seed) {
   RunPlan run = query_run(leg, length_m, seed);
   run.name = run.route + "-query-back";
@@ -145,14 +145,14 @@ std::vector<RunPlan> make_runs(const Network& network, std::uint64_t seed, doubl
       of_leg.push_back(traffic_query(leg, length_m, first + 4));
     }
     for (RunPlan& run : of_leg) {
-      if (route == "town-loop") run.has_oncoming = false;  // roundabouts are driven one way
+      if (route == "town-loop") run.has_oncoming = false;  // roundabouts have one direction
       runs.push_back(std::move(run));
     }
   }
-  for (const Leg& leg : kLegs) {  // last, for seeds depend on how many there are before
+  for (const Leg& leg : kLegs) {  // last, because seeds depend on the number of runs before
     const std::string route = leg.route;
     const Route* driven = network.route(route);
-    if (driven == nullptr || route == "town-loop") continue;  // a roundabout is driven one way
+    if (driven == nullptr || route == "town-loop") continue;  // a roundabout has one direction
     runs.push_back(
         back_query(leg, driven->path.length_m(), length_m, seed * 1000 + runs.size() * 10));
   }

@@ -1,4 +1,4 @@
-// The drives that are recorded in a town: who drives which route, when, and how.
+// The drives that are recorded in a town: route, time of day and driving style.
 #pragma once
 
 #include <string>
@@ -18,13 +18,13 @@ struct RunPlan {
   std::string name;
   std::string route;
   bool backwards = false;  // drives the route from its end to its start
-  std::string says;        // one line for who chooses
+  std::string says;        // one line of description
   Camera camera = kPaperCamera;
   MotionPlan motion;     // along path_of()
   double spacing_m = 0;  // between frames; 0: frames come by time
   double frame_period_s = 0.2;
   double period_jitter_s = 0;     // standard deviation
-  double dropped_share = 0;       // of frames that the recorder lost, [0, 1)
+  double dropped_share = 0;       // share of lost frames, [0, 1)
   double heading_jitter_deg = 0;  // standard deviations, frame by frame
   double pitch_jitter_deg = 0;
   double roll_jitter_deg = 0;
@@ -38,13 +38,13 @@ struct RunPlan {
   std::uint64_t seed = 1;     // of everything random in the run
 };
 
-// The line that a run drives along. REQUIRES: the network has its route.
+// The path of a run. REQUIRES: the network has its route.
 Path path_of(const Network& network, const RunPlan& run);
 
-// All drives of all routes, each route's mapping drive first. `length_m` cuts each route short.
+// All drives of all routes, each route's mapping drive first. `length_m` limits each route.
 std::vector<RunPlan> make_runs(const Network& network, std::uint64_t seed, double length_m);
 
-// The routes that are driven where none is asked for.
+// Whether the route is driven if none is requested.
 bool is_driven_by_default(const std::string& route);
 
 }  // namespace milepost::simulator

@@ -7,13 +7,12 @@
 namespace milepost::simulator {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr double kAntennaM = 1.5;
 
 constexpr double kGpsPeriodS = 1;
 constexpr double kGpsMemoryS = 30;
 constexpr double kOpenSigmaM = 2.5;
-constexpr double kHiddenSigmaM = 13;  // more, where nothing of the sky is seen
+constexpr double kHiddenSigmaM = 13;  // additional sigma if no sky is visible
 
 constexpr double kOdometerPeriodS = 0.1;
 constexpr double kSpeedScaleError = 0.015;
@@ -21,7 +20,7 @@ constexpr double kSpeedNoiseMps = 0.05;
 constexpr double kYawDriftDps = 0.15;
 constexpr double kYawNoiseDps = 0.25;
 
-// A first order Gauss-Markov process: unit variance, forgotten with kGpsMemoryS.
+// A first-order Gauss-Markov process of unit variance with time constant kGpsMemoryS.
 double next_error(double error, cv::RNG& random) {
   const double kept = std::exp(-kGpsPeriodS / kGpsMemoryS);
   return error * kept + random.gaussian(std::sqrt(1 - kept * kept));
@@ -68,7 +67,7 @@ std::vector<Odometry> measure_wheels(const Motion& motion, cv::RNG& random) {
     const double after_m = motion.along_m_at(time_s + kOdometerPeriodS / 2);
     const double turned_rad = std::remainder(
         motion.heading_rad_at(after_m) - motion.heading_rad_at(before_m), 2 * std::numbers::pi);
-    // Of the lane: in a bend it is longer or shorter than the route's line.
+    // Along the lane: in a bend it is longer or shorter than the route's line.
     const double driven_m = cv::norm(motion.position_at(after_m) - motion.position_at(before_m));
     const double speed = driven_m / kOdometerPeriodS * scale + random.gaussian(kSpeedNoiseMps);
     readings.push_back(

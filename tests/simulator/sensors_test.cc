@@ -30,7 +30,7 @@ struct Errors {
   double across_m, along_m, stated_m;  // root mean squares
 };
 
-// Over many receivers, for the errors of one are correlated.
+// Over many receivers, because the errors of one are correlated.
 Errors errors_between(const SkyView& sky_view, double from_m, double to_m) {
   const LocalFrame frame(kOrigin);
   const Motion motion = northwards(from_m, to_m);
@@ -57,7 +57,7 @@ TEST(Receiver, ErrsMoreBetweenTallHousesAndSaysSo) {
   EXPECT_GT(canyon.stated_m, 2.5 * open.stated_m);
   EXPECT_GT(canyon.along_m, 2.0 * open.along_m);
   EXPECT_GT(canyon.across_m, 1.05 * canyon.along_m);  // reflections come from the sides
-  // What is stated is what is made, apart from the lean.
+  // The stated sigma is the actual one, apart from the bias.
   EXPECT_NEAR(open.along_m * std::sqrt(2.0) / open.stated_m, 1, 0.15);
   EXPECT_NEAR(canyon.along_m * std::sqrt(2.0) / canyon.stated_m, 1, 0.15);
 }
@@ -80,7 +80,7 @@ TEST(Receiver, ErrorsOfOneSecondToTheNextAreAlike) {
   EXPECT_LT(step / size, 0.3);  // 2 would be independent errors
 }
 
-TEST(Wheels, SaySpeedAndTurnWithinTheirErrors) {
+TEST(Odometry, MeasuresSpeedAndTurnWithinItsErrors) {
   const Motion straight = northwards(0, 300);
   cv::RNG random(5);
   for (const Odometry& reading : measure_wheels(straight, random)) {
@@ -99,7 +99,7 @@ TEST(Wheels, SaySpeedAndTurnWithinTheirErrors) {
   EXPECT_NEAR(reading.yaw_rate_dps, expected_dps, 2.5);
 }
 
-TEST(Wheels, GoFurtherOnTheOutsideOfABend) {
+TEST(Odometry, IsLongerOnTheOutsideOfABend) {
   MotionPlan plan;
   plan.from_m = 1;
   plan.to_m = 70;

@@ -13,7 +13,7 @@ constexpr double kTexelM = 0.11;
 constexpr double kNormalBiasM = 0.13;
 constexpr double kDepthBiasM = 0.06;
 
-// The smallest rectangle across the sun's rays that holds what throws shadows.
+// The smallest rectangle normal to the sun's rays that contains all shadow casters.
 Projection projection_of(const Scene& scene, const Point& to_sun) {
   const Point forward = -to_sun;
   const Point right = cv::normalize(forward.cross(Point(0, 0, 1)));

@@ -1,4 +1,4 @@
-// Which places of a scene the sun reaches, and how much of the sky they see.
+// Sunlight and sky visibility of the points of a scene.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace milepost::simulator {
 
-// A shadow map: the scene's depth as the sun sees it. Immutable, so safe to share between threads.
+// A shadow map: the scene's depth from the sun. Immutable, so safe to share between threads.
 class ShadowMap {
  public:
   ShadowMap(const Scene& scene, const Point& to_sun);
@@ -23,8 +23,8 @@ class ShadowMap {
   std::vector<float> nearness_;
 };
 
-// What rises above the ground by place, for the share of the sky that is seen from the ground.
-// Immutable, so safe to share between threads.
+// A height map, from which the share of visible sky is computed. Immutable, so safe to share
+// between threads.
 class SkyView {
  public:
   // `height_m` holds a height above the ground every kCellM, its rows northwards from `south_west`.
@@ -32,7 +32,7 @@ class SkyView {
 
   static constexpr double kCellM = 1;
 
-  // The share of the sky, [0, 1], weighted by the cosine to the zenith, seen at a height above
+  // The visible share of the sky, [0, 1], weighted by the cosine to the zenith, at a height above
   // the ground; 1 outside of the town.
   float open_share(const cv::Vec2d& position, double above_ground_m) const;
 

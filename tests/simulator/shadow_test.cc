@@ -90,7 +90,7 @@ TEST(Render, ShadowsAreDarkerThanSunlitGround) {
   };
   EXPECT_NEAR(grey_at(-5), grey_at(10), 2);
   EXPECT_LT(grey_at(3), grey_at(-5) * 0.75);
-  // What moves throws a shadow, too: a box 2 m high before the wall.
+  // Moving objects cast shadows, too: a box 2 m high in front of the wall.
   Moving moving;
   moving.shades.push_back({{0, -6, 0}, {1, 0}, 3, 1, 2});
   const cv::Mat with_box = render(scene, lighting, from_above, moving);

@@ -99,7 +99,7 @@ TEST(SimulatorCommand, ReplacesNoFileOfAnotherKind) {
   for (const std::string option : {"--ortho", "--walls"}) {
     const Outcome outcome = run_simulator(option + " " + letter.string());
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.output, HasSubstr("letter.txt: the file that is there is not a "));
+    EXPECT_THAT(outcome.output, HasSubstr("letter.txt: the existing file is not a "));
     EXPECT_EQ(*read_text_file(letter), "Dear reader");
   }
 }

@@ -1,4 +1,4 @@
-// The ground that a town is built on: where there is room for what.
+// The ground of a town: free space for objects.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace milepost::simulator {
 
-// A place beside a road: on the ground, with the road's direction and the side that faces it.
+// A position beside a road: on the ground, with the road's direction and the side that faces it.
 struct Standing {
   Point foot;
   cv::Vec2d forward;  // unit vector along the road
   cv::Vec2d to_road;  // unit vector across, towards the road
 };
 
-// Refers to a network and its buildings, which outlive it.
+// Refers to a network and its buildings, which must outlive it.
 class Site {
  public:
   Site(const Network& network, const std::vector<Building>& buildings)
@@ -26,12 +26,12 @@ class Site {
   const Network& network() const { return network_; }
 
   Point on_ground(const cv::Vec2d& position) const;
-  // Whether a house stands there, or within a margin of it.
+  // Whether there is a house within a margin of the position.
   bool is_built_on(const cv::Vec2d& position, double margin_m) const;
-  // `off_m` beyond the edge of a carriageway, to the right (+1) or left (-1); nothing where another
-  // road or a house is.
+  // `off_m` beyond the edge of a carriageway, to the right (+1) or left (-1); nothing if another
+  // road or a house is there.
   std::optional<Standing> beside(const Road& road, double along_m, int side, double off_m) const;
-  // Whether another road crosses or opens within some metres of a place in the middle of a road.
+  // Whether another road crosses or opens within some metres of a point in the middle of a road.
   bool is_near_junction(const Road& road, double along_m) const;
 
  private:

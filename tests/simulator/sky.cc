@@ -13,7 +13,7 @@ constexpr int kColumns = 2048;
 constexpr int kRows = 512;  // from the zenith to the horizon
 constexpr double kPi = std::numbers::pi;
 
-// Clouds lie in a layer overhead, so that they grow smaller towards the horizon.
+// Clouds are in a layer overhead, so that they become smaller towards the horizon.
 float cloud_density(const Point& direction, const Light& light) {
   const double height = direction[2] + 0.12;
   const double x = direction[0] / height * 1.6;

@@ -14,7 +14,7 @@ class Sky {
 
   // Blue, green, red in [0, 255], seen along a direction of any length.
   cv::Vec3f colour(const Point& direction) const;
-  // What distance fades into.
+  // The colour into which distant objects fade.
   cv::Vec3f haze() const { return haze_; }
 
  private:

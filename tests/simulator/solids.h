@@ -1,4 +1,4 @@
-// Pieces that a town is put together from.
+// Solids from which a town is composed.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ inline const Point kUp(0, 0, 1);
 
 std::shared_ptr<const Texture> painted(std::function<cv::Mat(cv::RNG&)> paint, std::uint64_t seed);
 
-// An upright wall whose foot runs from one point to the other, left to right as it is looked at.
+// An upright wall whose foot runs from one point to the other, left to right as viewed.
 void add_wall(Scene& scene, const Point& left, const Point& right, double height_m,
               std::shared_ptr<const Texture> texture, const cv::Size& texels);
 

@@ -7,7 +7,7 @@
 namespace milepost::simulator {
 namespace {
 
-// One thing on the pavement or verge, if there is room.
+// One object on the pavement or verge, if there is room.
 void add_something(Scene& scene, const Site& site, const Road& road, double along_m, int side,
                    cv::RNG& random) {
   const int kind = random.uniform(0, 10);

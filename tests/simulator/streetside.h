@@ -1,4 +1,4 @@
-// What stands at the kerbs of a town: parked vehicles, lamps, signs and the like.
+// Objects at the kerbs of a town: parked vehicles, lamps, signs and the like.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The lie of the land: gentle swells and one hill.
+// The terrain: gentle swells and one hill.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -73,7 +73,7 @@ const std::vector<Texture::Level>& Texture::levels() const {
 
 void Texture::forget() const { pyramid_ = std::make_unique<Pyramid>(); }
 
-// Anisotropic filtering: the level fits the footprint's shorter side, and several taps stand along
+// Anisotropic filtering: the level matches the footprint's shorter side, with several taps along
 // its longer side.
 cv::Vec4f Texture::sample(const cv::Vec2f& place, const Footprint& footprint) const {
   const float column = length(footprint.per_column);

@@ -1,4 +1,4 @@
-// An image on a surface, filtered so that its detail fades with distance as behind a lens.
+// An image on a surface, filtered so that its detail decreases with distance as with a real camera.
 #pragma once
 
 #include <functional>
@@ -10,29 +10,29 @@
 
 namespace milepost::simulator {
 
-// How far the place on the texture moves from one pixel of the picture to the next, in texels.
+// The derivative of texture coordinates by pixel, in texels.
 struct Footprint {
   cv::Vec2f per_column;
   cv::Vec2f per_row;
 };
 
-// A pyramid of halved images. Safe to share between threads: the first that samples it paints it.
+// An image pyramid (mipmap), painted at the first sample. Safe to share between threads.
 class Texture {
  public:
-  // Gives an 8-bit BGR or BGRA image, not empty, the same one whenever it is called.
+  // Returns an 8-bit BGR or BGRA image, not empty, the same at every call.
   using Paint = std::function<cv::Mat()>;
 
   explicit Texture(Paint paint) : paint_(std::move(paint)) {}
   explicit Texture(const cv::Mat& image) : paint_([image] { return image; }) {}
 
   // The mean blue, green, red and opacity, [0, 255], of the footprint of one pixel about (x, y), in
-  // texels from the top left corner of the top left texel; places outside take the border's colour.
+  // texels from the top left corner of the top left texel; outside, the border's colour continues.
   cv::Vec4f sample(const cv::Vec2f& place, const Footprint& footprint) const;
 
-  // The opacity, [0, 255], about a place, as the mean over squares of 2^level texels.
+  // The opacity, [0, 255], at a point, as the mean over squares of 2^level texels.
   float opacity(const cv::Vec2f& place, float level) const;
 
-  // Frees the pyramid; it is painted again when it is sampled. Not while others sample.
+  // Frees the pyramid; it is painted again at the next sample. Not safe while others sample.
   void forget() const;
 
  private:

@@ -16,9 +16,9 @@ namespace milepost::simulator {
 namespace {
 
 constexpr double kPatchM = 8;
-constexpr int kRoadTexelsPerM = 38;  // where a drive comes close
+constexpr int kRoadTexelsPerM = 38;  // near a drive
 constexpr int kAwayTexelsPerM = 12;
-constexpr double kCloseM = 11;  // from a route's middle to where the ground needs detail
+constexpr double kCloseM = 11;  // from a route's middle, within which the ground needs detail
 
 // Seeds of the parts of a town, so that one part can change without the others.
 enum Part : std::uint64_t { kGround = 1, kHouses, kPlants, kParking, kFurniture, kWoods };
@@ -31,7 +31,7 @@ bool is_close_to_a_route(const Network& network, const cv::Vec2d& position) {
   });
 }
 
-// Squares of a grid that is fixed to the local frame, each bent along its diagonal.
+// Squares of a grid that is fixed to the local frame, each split along its diagonal.
 void add_ground(Scene& scene, const Site& site, GroundDetail detail, std::uint64_t seed) {
   const Network& network = site.network();
   const auto ground = std::make_shared<Ground>(network, seed);

@@ -1,4 +1,4 @@
-// A town of roads, houses, trees and vehicles, made up from a seed.
+// A town of roads, houses, trees and vehicles, generated from a seed.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace milepost::simulator {
 
-// From how near the ground is going to be looked at.
+// The level of detail of the ground, for the viewing distance.
 enum class GroundDetail { road, aerial };
 
 struct Town {
@@ -26,7 +26,7 @@ struct Town {
 // The same seed gives the same town.
 Town make_town(std::uint64_t seed, GroundDetail detail = GroundDetail::road);
 
-// The town under a light: throws its shadows. REQUIRES: the town outlives the lighting.
+// Computes the town's lighting and shadows. REQUIRES: the town outlives the lighting.
 Lighting light_town(const Town& town, const Light& light);
 
 }  // namespace milepost::simulator

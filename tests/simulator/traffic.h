@@ -1,4 +1,4 @@
-// Vehicles that move while a drive is recorded.
+// Moving vehicles during a recorded drive.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ class Traffic {
  public:
   Traffic(const Network& network, const RunPlan& run);
 
-  // What stands where when the recording vehicle is at an along of its route.
+  // The positions of the vehicles when the recording vehicle is at an arc length of its route.
   Moving at(double time_s, double along_m) const;
 
  private:

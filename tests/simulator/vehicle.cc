@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTexelsPerM = 96;
 
-// A place on a vehicle's side, in metres: from its front, and above the ground.
+// A point on a vehicle's side, in metres: from its front, and above the ground.
 struct Side {
   double back_m, up_m;
 };
@@ -116,7 +116,7 @@ cv::Scalar opaque(const cv::Scalar& colour) { return {colour[0], colour[1], colo
 const char* const kFirms[] = {"NORDIC FREIGHT", "BLITZ",   "ROSSI & SONS", "AQUA",
                               "VITA FOODS",     "EXPRESS", "KRAMER BAU",   "FIORE"};
 
-// What is written on the flank of a van or truck.
+// The lettering on the flank of a van or truck.
 void paint_livery(cv::Mat& image, const Shape& shape, double from_m, cv::RNG& random) {
   const std::string word = kFirms[random.uniform(0, 8)];
   const cv::Scalar ink = opaque(varied(
@@ -344,7 +344,7 @@ void Vehicle::add_to(std::vector<Surface>& surfaces, const Point& centre,
     const Point away = (a + b + c + d) * 0.25 - centre - kUp * 0.8;
     surfaces.back().normal = out.dot(away) < 0 ? -out : out;
   }
-  // The sides, cut out of one texture whose left is the front: right for who looks from the left.
+  // The sides, cut out of one texture whose left is the front, as seen from the vehicle's left.
   const Point top = kUp * shape.height_m();
   for (const double side : {-1.0, 1.0}) {
     const Point front = centre + ahead * half_m + right * (side * half_width);
@@ -354,7 +354,7 @@ void Vehicle::add_to(std::vector<Surface>& surfaces, const Point& centre,
     surfaces.back().normal = right * side;
     surfaces.back().is_cut_out = true;
   }
-  // The dark underneath.
+  // The dark underbody.
   const Point low = kUp * 0.26;
   const auto floor = [&](double along, double across) {
     return centre + ahead * (along * (half_m - 0.1)) + right * (across * (half_width - 0.05));

@@ -10,7 +10,7 @@ namespace milepost::simulator {
 
 enum class VehicleKind { hatchback, saloon, van, truck };
 
-// What one vehicle looks like; made once, placed anywhere.
+// The appearance of one vehicle; generated once, placed anywhere.
 class Vehicle {
  public:
   Vehicle(VehicleKind kind, std::uint64_t seed);
@@ -19,7 +19,7 @@ class Vehicle {
   double width_m() const;
   double height_m() const;
 
-  // Its surfaces where the middle of its floor is at `centre`.
+  // Adds its surfaces, with the middle of its floor at `centre`.
   void add_to(std::vector<Surface>& surfaces, const Point& centre, const cv::Vec2d& forward) const;
   Shade shade(const Point& centre, const cv::Vec2d& forward) const;
 

@@ -1,4 +1,4 @@
-"""The command milepost-mapper aerial, as a user calls it."""
+"""The command milepost-mapper aerial, called as by a user."""
 import json
 import random
 import signal
@@ -43,7 +43,7 @@ def drawn_yard(width, height):
 
 def write_tiff(file, rows, georeferenced=True, *, samples=3, alpha_tag=False, crs=MERCATOR, pixel=(PIXEL_M, PIXEL_M),
                corner=(WEST_M, NORTH_M)):
-    """A GeoTIFF without compression, one strip. `crs` is an EPSG code of metres, or 4326; `pixel` and `corner` are in it."""
+    """An uncompressed GeoTIFF of one strip. `crs` is an EPSG code, of metres or 4326; `pixel` and `corner` are in it."""
     width, height = len(rows[0]) // samples, len(rows)
     pixels = b"".join(rows)
     doubles = struct.pack("<3d", *pixel, 0) + struct.pack("<6d", 0, 0, 0, *corner, 0)
@@ -160,7 +160,7 @@ class Aerial(CommandTest):
                          {"1-picture.png", "2-edges.png", "3-shadows.png", "4-clutter.png", "5-lines.png"})
 
     def expect_kept(self, *parts, words):
-        """Refused, by a line that holds each part; the map with its four walls stays as it is."""
+        """Refused with a line that contains each part; the map with its four walls is unchanged."""
         self.expect_done(self.aerial("--footprints", self.square()))
         before = self.map.read_bytes()
         self.expect_refused(self.aerial(*words), 1, *parts, "; ")
@@ -213,7 +213,7 @@ class Aerial(CommandTest):
         for name, image in images.items():
             result = self.aerial("--image", image)
             self.expect_done(result)
-            self.assertEqual("band 4 is taken for data" in result.stdout, name == "infrared", result.stdout)
+            self.assertEqual("band 4 is treated as data" in result.stdout, name == "infrared", result.stdout)
             walls[name] = self.walls()
         self.assertEqual(walls["infrared"], walls["three"])
         self.assertTrue(0 < len(walls["mask"]) < 0.7 * len(walls["three"]))
@@ -228,7 +228,7 @@ class Aerial(CommandTest):
         rows = [bytes(range(30)) * 6] * 60
         for name, crs, pixel, corner, part in (
                 ("world", 4326, (6, 3), (-180, 90), "at most 1.2 m"), ("sentinel", MERCATOR, (10, 10), (0, 5e6), "at most 1.2 m"),
-                ("elsewhere", MERCATOR, (1, 1), (1e9, 5e6), "place on the Earth"),
+                ("elsewhere", MERCATOR, (1, 1), (1e9, 5e6), "position on the Earth"),
                 ("nothing", MERCATOR, (0, 1), (0, 5e6), "georeference"),
                 ("nan", MERCATOR, (float("nan"), 1), (0, 5e6), "georeference")):
             with self.subTest(name):
@@ -237,7 +237,7 @@ class Aerial(CommandTest):
                 self.expect_refused(self.aerial("--image", image), 1, str(image), part, "; ")
 
     def expect_readable(self, count=None):
-        """The walls, which our own readers take; each lies within 0.1 degrees."""
+        """The walls, read by our own readers; each spans less than 0.1 degrees."""
         walls = self.walls()
         for (begin, end) in walls:
             self.assertLess(max(abs(begin[0] - end[0]), abs(begin[1] - end[1])), 0.1)
@@ -290,7 +290,7 @@ class Aerial(CommandTest):
                 file = self.square(f'{{"crs": {reference}, ' + footprints(SQUARE)[1:])
                 self.expect_refused(self.aerial("--footprints", file), 1, str(file), "crs", "; ")
         lines = self.square("\n".join([footprints(SQUARE)] * 2))
-        self.expect_refused(self.aerial("--footprints", lines), 1, str(lines), "a line", "GeoJSONSeq")
+        self.expect_refused(self.aerial("--footprints", lines), 1, str(lines), "per line", "GeoJSONSeq")
         self.assertFalse(self.map.exists())
 
     def test_wrong_calls(self):

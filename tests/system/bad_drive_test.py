@@ -1,4 +1,4 @@
-"""Every fault of a drive is one line that names the file, the row and the mend, and leaves no map."""
+"""Every fault of a drive is one line that names the file, the row and a hint, and leaves no map."""
 import commands
 from commands import CommandTest, STREET, edit_json, edit_lines
 
@@ -36,7 +36,7 @@ class BadDrive(CommandTest):
 
     def test_wrong_column(self):
         edit_lines(self.trajectory, lambda lines: lines.__setitem__(0, lines[0].replace("north_m", "northing")))
-        self.expect_fault("trajectory.csv, line 1", "'northing'", "'north_m'", "let the header start with")
+        self.expect_fault("trajectory.csv, line 1", "'northing'", "'north_m'", "start the header with")
 
     def test_nan(self):
         set_cell(self.trajectory, 5, 2, "nan")
@@ -79,7 +79,7 @@ class BadDrive(CommandTest):
         self.assertEqual(self.map.read_bytes(), expected)
         frame.write_bytes(whole[:len(whole) // 2] + b"\xff\xd9")
         self.map.unlink()
-        self.expect_fault("trajectory.csv, line 8", frame.name, "is cut short; copy the image again")
+        self.expect_fault("trajectory.csv, line 8", frame.name, "is truncated; copy the image again")
 
     def test_other_image_size(self):
         edit_json(self.drive / "drive.json", lambda drive: drive["camera"].__setitem__("width_px", 640))

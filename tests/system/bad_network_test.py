@@ -15,13 +15,13 @@ import urllib.request
 import commands
 from commands import CLIENT, CommandTest, STREET, Server, rows_of, run, wait_until_caught
 
-LONGEST_S = 120       # that a drive may take
+LONGEST_S = 120       # of a drive
 LONGEST_FRAME_MS = 3000
 
 
 @contextlib.contextmanager
 def between(url, spoil):
-    """A proxy before the server at `url`; yields its URL. `spoil` may answer in its place."""
+    """A proxy in front of the server at `url`; yields its URL. `spoil` may respond instead."""
     ending = threading.Event()
 
     class Handler(http.server.BaseHTTPRequestHandler):
@@ -48,7 +48,7 @@ def between(url, spoil):
         daemon_threads = True
         block_on_close = False
 
-        def handle_error(self, *_):  # the client left
+        def handle_error(self, *_):  # the client disconnected
             pass
 
     with Proxy(("127.0.0.1", 0), Handler) as proxy:
@@ -59,13 +59,13 @@ def between(url, spoil):
 
 
 def never(_request, ending):
-    """Takes the request and does not answer."""
+    """Accepts the request and does not respond."""
     ending.wait()
     return True
 
 
 def drip(request, ending):
-    """Two bytes a second."""
+    """Two bytes per second."""
     request.send_response(200)
     request.send_header("Content-Type", "application/json")
     request.send_header("Content-Length", "100000")
@@ -77,7 +77,7 @@ def drip(request, ending):
 
 
 def only_tiles(spoil):
-    """Spoils tiles; documents come."""
+    """Spoils tiles; documents are passed on."""
     return lambda request, ending: "/tiles" in request.path and spoil(request, ending)
 
 
@@ -99,7 +99,7 @@ class BadNetwork(CommandTest):
         return result
 
     def rows(self):
-        """The fixes: one a frame, none of which waited."""
+        """The fixes: one per frame, none of which was delayed."""
         rows = rows_of(self.fixes)
         frames = len((self.drive / "trajectory.csv").read_text().splitlines()) - 1
         self.assertEqual(len(rows), frames)
@@ -116,7 +116,7 @@ class BadNetwork(CommandTest):
             self.assertEqual({row["status"] for row in self.rows()}, {"initializing"})
             self.expect_done(self.localize(server.url, self.folder / "warm"))
             expected = self.places()
-            # The cache holds all of this drive's map: nothing of it has to be asked for.
+            # The cache holds all of this drive's map: nothing has to be requested.
             cache = sqlite3.connect(next((self.folder / "warm").glob("tiles-*.sqlite")))
             cache.close()
         with between("http://127.0.0.1:1", never) as other:
@@ -129,7 +129,7 @@ class BadNetwork(CommandTest):
             self.assertEqual({row["status"] for row in self.rows()}, {"initializing"})
 
     def test_one_tile_in_the_middle_is_refused(self):
-        """All is found but what only that tile shows."""
+        """All is localized except where only that tile has landmarks."""
         with Server(self.maps) as server:
             self.expect_done(self.localize(server.url, self.folder / "whole"))
             tracked = sum(row["status"] == "tracking" for row in self.rows())
@@ -163,7 +163,7 @@ class BadNetwork(CommandTest):
             self.assertEqual(held, set(tiles) - {refused})
 
     def holds(self, url, path, tile):
-        """Whether the answer to a range holds a tile: by the segment's document."""
+        """Whether the response to a range contains a tile, by the segment's document."""
         import json
         import re
         segment = path.split("/tiles")[0]

@@ -1,4 +1,4 @@
-"""What the system tests share: running the programs, and drives to run them on."""
+"""Shared by the system tests: running the programs, and drives to run them on."""
 import csv
 import json
 import os
@@ -16,7 +16,7 @@ MAPPER = os.environ.get("MILEPOST_MAPPER", "")
 SERVER = os.environ.get("MILEPOST_SERVER", "")
 CLIENT = os.environ.get("MILEPOST_CLIENT", "")
 STREET = pathlib.Path(os.environ.get("MILEPOST_STREET", ""))  # holds street-map and street-query
-SHARED = pathlib.Path(os.environ.get("MILEPOST_SHARED", ""))  # recorded drives, where there are any
+SHARED = pathlib.Path(os.environ.get("MILEPOST_SHARED", ""))  # recorded drives, if available
 
 
 def run(*words, timeout=600):
@@ -26,7 +26,7 @@ def run(*words, timeout=600):
 
 
 def wait_until_caught(process, stop):
-    """Waits until a process has a handler for a signal, as the kernel tells it, or has ended."""
+    """Waits until a process has a handler for a signal, according to the kernel, or has ended."""
     while process.poll() is None:
         status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
         if int(re.search(r"SigCgt:\s*(\w+)", status).group(1), 16) >> (stop - 1) & 1:
@@ -58,12 +58,12 @@ def rows_of(file):
 
 
 def report_data(page):
-    """What a report shows."""
+    """The data of a report."""
     return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)[1])
 
 
 class CommandTest(unittest.TestCase):
-    """A test with a temporary folder and checks of what commands say."""
+    """A test with a temporary folder and checks of the output of commands."""
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -74,14 +74,14 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def expect_teaches(self, result, *parts):
-        """A help that holds each part, and none of the parser's own words for types and ranges."""
+        """A help text that contains each part, and none of the parser's own terms for types and ranges."""
         self.expect_done(result)
         self.assertNotRegex(result.stdout, r"\b(U?INT|FLOAT|TEXT|BOOLEAN)\b| in [\[{]|\de[+-]\d")
         for part in parts:
             self.assertIn(part, result.stdout)
 
     def expect_refused(self, result, code, *parts):
-        """The command ended with `code` and one line on standard error that holds each part."""
+        """The command ended with `code` and one line on standard error that contains each part."""
         self.assertEqual(result.returncode, code, result.stdout + result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
         for part in parts:

@@ -1,4 +1,4 @@
-"""Finding a vehicle without a receiver: footprints -> walls -> server -> client, on the simulated street."""
+"""Global localization without a GNSS receiver: footprints -> walls -> server -> client, on the simulated street."""
 import json
 import math
 import os
@@ -23,7 +23,7 @@ class Find(CommandTest):
         self.footprints = self.folder / "walls.geojson"
         self.query = STREET / "street-query"
         self.fixes = self.folder / "found.csv"
-        # The town that the street drives were made in.
+        # The town of the street drives.
         self.expect_done(run(SIMULATOR, "--seed", 3, "--walls", self.footprints))
 
     def make_walls(self):
@@ -33,7 +33,7 @@ class Find(CommandTest):
         return run(CLIENT, "find", "--drive", self.query, "--out", self.fixes, *words)
 
     def truth(self):
-        """Latitude, longitude and heading of every frame: the simulator's drives are about one local origin."""
+        """Latitude, longitude and heading of every frame: the simulator's drives share one local origin."""
         drive = json.loads((self.query / "drive.json").read_text())
         origin = drive["origin"]
         east_m_per_deg = M_PER_DEG * math.cos(math.radians(origin["latitude_deg"]))
@@ -156,17 +156,17 @@ class Find(CommandTest):
         copy = self.copy_of(self.query)
         (copy / "odometry.csv").unlink()
         result = run(CLIENT, "find", "--drive", copy, "--map", self.map, "--out", self.fixes)
-        self.expect_refused(result, 1, "odometry.csv: there is nothing that says how the vehicle moved")
+        self.expect_refused(result, 1, "odometry.csv: the drive has no odometry")
 
     def test_wrong_words_are_refused(self):
         for words in (["--map", "m", "--particles", 0], ["--map", "m", "--method", "stars"], ["--map", "m", "--area", "1,2,3"],
                       ["--map", "m", "--start-sigma-m", 3], ["--map", "m", "--start", "91,8"],
                       ["--map", "m", "--start", "nan,8"], []):
             self.assertEqual(self.find(*words).returncode, 2, words)
-        for words, message in ((["--area", "9,49,8,50"], "--area is no box"),
-                               (["--area", "179.9,-17,-179.9,-16"], "across longitude 180"), (["--area", "8,49,9,nan"], "--area is no box"),
-                               (["--area", "8,49,9,50", "--start", "49.5,7.9"], "--start lies outside of --area"),
-                               (["--area", "8,49,9,50", "--start", "48.9,8.5"], "--start lies outside of --area")):
+        for words, message in ((["--area", "9,49,8,50"], "--area: not a box"),
+                               (["--area", "179.9,-17,-179.9,-16"], "across longitude 180"), (["--area", "8,49,9,nan"], "--area: not a box"),
+                               (["--area", "8,49,9,50", "--start", "49.5,7.9"], "--start: lies outside of --area"),
+                               (["--area", "8,49,9,50", "--start", "48.9,8.5"], "--start: lies outside of --area")):
             self.expect_refused(self.find("--map", "m", *words), 2, message)
 
 

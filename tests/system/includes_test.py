@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks #include lines: who may depend on whom (the link line cannot see header-only use), and no circles.
+"""Checks #include lines: allowed dependencies (the link line does not cover header-only use), and no cycles.
 
-usage: includes_test.py ROOT      exit code 1 and one line a fault when a rule is broken
+usage: includes_test.py ROOT      exit code 1 and one line per violation of a rule
 """
 import re
 import sys
@@ -10,7 +10,7 @@ from pathlib import Path
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 ROOMS = ("schema", "mapper", "server", "client")
 
-FEATURE_TYPES = ["schema/feature/types", "schema/feature/descriptor.h", "schema/feature/codebook.h"]
+FEATURE_TYPES = ["schema/feature/types", "schema/feature/descriptor.h", "schema/feature/pca_projection.h"]
 BASE = "schema/base/"
 COMMAND = "schema/command/"
 
@@ -84,7 +84,7 @@ def room_of(path):
 
 
 def circles_among(edges):
-    """Each circle of a graph once, as the list of its nodes; `edges`: node -> nodes."""
+    """Each cycle of a graph once, as the list of its nodes; `edges`: node -> nodes."""
     circles, done = [], set()
 
     def walk(node, way):
@@ -103,7 +103,7 @@ def circles_among(edges):
 
 
 def circles_of(includes):
-    """Circles of files, and of rooms: a room is a folder, and the files of an inner one are not the outer's."""
+    """Cycles of files, and of folders; the files of an inner folder do not belong to the outer one."""
     files = {path: {name for name in ours if name in includes} for path, (ours, _) in includes.items()}
     rooms = {}
     for path, names in files.items():

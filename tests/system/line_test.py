@@ -12,7 +12,7 @@ from commands import CLIENT, CommandTest, STREET, Server, report_data, rows_of, 
 
 FIX_COLUMNS = ["timestamp_s", "filename", "status", "segment", "along_m", "sigma_m", "latitude_deg",
                "longitude_deg", "matches", "latency_ms"]
-POSE_COLUMNS = ["lateral_m", "heading_deg", "lateral_sigma_m"]  # of methods that know them
+POSE_COLUMNS = ["lateral_m", "heading_deg", "lateral_sigma_m"]  # of methods that estimate them
 TRUTH_COLUMNS = ["truth_lateral_m", "lateral_error_m", "heading_error_deg"]
 SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m", "p95_error_m", "frames",
                 "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99",
@@ -34,7 +34,7 @@ def black_png(width, height):
 
 
 def add_walls(map_file):
-    """Adds a layer of walls with a cell, whose bytes nobody reads here; the map's build changes."""
+    """Adds a layer of walls with a cell, whose bytes are not read here; the map's build changes."""
     frame = bytes(100)
     digest = hashlib.blake2b(frame, digest_size=16).hexdigest()
     with contextlib.closing(sqlite3.connect(map_file)) as store, store:
@@ -77,7 +77,7 @@ class Line(CommandTest):
         with Server(self.maps) as server:
             self.expect_done(self.localize(*self.over_http(server.url)))
         by_http = self.expect_fixes()
-        # With the cache filled and no server any more:
+        # With the cache filled and the server stopped:
         self.expect_done(self.localize(*self.over_http(server.url)))
         by_cache = self.expect_fixes()
         self.expect_done(self.localize("--map", self.map))
@@ -123,7 +123,7 @@ class Line(CommandTest):
         summaries = [self.summary_of_evaluation()]
         add_walls(self.map)
         walls = run(commands.MAPPER, "export", "--map", self.map, "--layer", "walls", "--geojson", self.folder / "w.json")
-        self.expect_refused(walls, 1, "layer walls, cell 2001637680")  # it is there
+        self.expect_refused(walls, 1, "layer walls, cell 2001637680")  # it exists
         self.expect_done(self.localize("--map", self.map))
         beside = self.expect_fixes()
         with Server(self.maps) as server:
@@ -221,7 +221,7 @@ class Line(CommandTest):
             self.expect_refused(result, 1, f"'{layer}'", "--lab")
         result = run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", self.folder / "results",
                      "--method", "magic")
-        self.expect_refused(result, 1, "'magic' is no method", "milepost")
+        self.expect_refused(result, 1, "'magic' is not a method", "milepost")
 
     def test_no_server(self):
         with socket.socket() as unused:
@@ -254,7 +254,7 @@ class Line(CommandTest):
 
     def test_wrong_calls(self):
         self.expect_refused(run(CLIENT), 2, "a command is missing")
-        self.expect_refused(run(CLIENT, "localise"), 2, "'localise' is no command")
+        self.expect_refused(run(CLIENT, "localise"), 2, "'localise' is not a command")
         self.expect_refused(self.localize(), 2, "--server or --map")
         self.expect_refused(self.localize("--server", "http://127.0.0.1:1"), 2, "--cache")
         self.expect_refused(self.localize("--map", "a", "--server", "b", "--cache", "c"), 2, "--map")

@@ -89,7 +89,7 @@ class Mapper(CommandTest):
 
     def test_wrong_calls(self):
         self.expect_refused(run(MAPPER), 2, "a command is missing")
-        self.expect_refused(run(MAPPER, "bild"), 2, "'bild' is no command")
+        self.expect_refused(run(MAPPER, "bild"), 2, "'bild' is not a command")
         self.expect_refused(run(MAPPER, "build", "--map", self.map), 2, "--drive")
         self.expect_refused(self.build(STREET / "street-map", self.map, "--jobs", "none"), 2, "--jobs")
         self.expect_refused(self.build(STREET / "street-map", self.map, "--job", "2"), 2, "--job")

@@ -1,4 +1,4 @@
-"""Outputs never replace an input, nor a file that is not of their own kind; it is said before any work."""
+"""Outputs never replace an input, nor a file of another kind; errors are reported before any work."""
 import json
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""A network that answers in the server's place, and a cache that another process locks."""
+"""A network that responds instead of the server (captive portal), and a cache that another process locks."""
 import contextlib
 import fcntl
 import http.server
@@ -10,7 +10,7 @@ from commands import CLIENT, CommandTest, STREET, Server, rows_of, run
 PAGE = b"<!DOCTYPE html><html><body>Welcome! Please log in.</body></html>"
 HTML = {"Content-Type": "text/html; charset=utf-8"}
 JSON = {"Content-Type": "application/json"}
-# What is answered to any address: status, header, body. tests/client/fetch/portal_test.cc has more.
+# Responses to any URL: status, header, body. tests/client/fetch/portal_test.cc has more.
 ANSWERS = {
     "page": (200, HTML, PAGE),
     "forbidden": (403, HTML, PAGE),
@@ -21,7 +21,7 @@ ANSWERS = {
 
 @contextlib.contextmanager
 def portal(status, header, body):
-    """Answers every request in the same way; yields the URL."""
+    """Responds to every request in the same way; yields the URL."""
     class Handler(http.server.BaseHTTPRequestHandler):
         protocol_version = "HTTP/1.1"
 
@@ -68,7 +68,7 @@ class Portal(CommandTest):
                 self.expect_done(self.localize(url, self.cache))
                 self.assertEqual(self.places(), self.expected)
                 self.expect_refused(self.localize(url, self.folder / f"cold {name}"), 1, url,
-                                    "no milepost server answered", "log in")
+                                    "something other than a milepost server answered", "log in")
         with self.subTest("a lock that another process holds"), open(self.cache / "lock", "wb") as lock, \
                 Server(self.folder / "maps") as server:
             fcntl.flock(lock, fcntl.LOCK_EX)

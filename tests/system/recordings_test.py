@@ -1,4 +1,4 @@
-"""Real second looks at real roads: no worse than an independent implementation of the paper's measurement.
+"""Repeated recordings of real roads: no worse than an independent implementation of the paper's measurement.
 
 The figures are those of ../shared/drives/README.md, as means over the pairs. Skipped, saying so, without
 the recordings, which cannot be part of the project.

@@ -47,7 +47,7 @@ class Page:
         return self.driver.execute_script(script, *arguments)
 
     def settled(self):
-        """Waits until what was asked for is drawn."""
+        """Waits until the requested drawing is done."""
         self.driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
 
     def mouse(self, kind, x, y, **more):
@@ -57,7 +57,7 @@ class Page:
         return self.ask(f"return plots.map((plot, i) => plot.spec.{condition} ? i : -1).filter((i) => i >= 0)")
 
     def show(self, plot):
-        """Scrolls there, and returns where the plotting area is in the window: left, top, width, height."""
+        """Scrolls to a plot, and returns its plotting area in the window: left, top, width, height."""
         self.ask("plots[arguments[0]].box.scrollIntoView({block: 'center'})", plot)
         self.settled()
         self.ask("scrolled = -Infinity")  # as if the page had come to rest long ago
@@ -65,7 +65,7 @@ class Page:
                            return [left + area.left, top + area.top, area.width, area.height]""", plot)
 
     def place(self, plot, frame):
-        """Where a frame is in the window."""
+        """The position of a frame in the window."""
         left, top, *_ = self.show(plot)
         x, y = self.ask("return place(plots[arguments[0]], arguments[1])", plot, frame)
         return self.ask("const r = plots[arguments[0]].box.getBoundingClientRect(); return [r.left + arguments[1], r.top + arguments[2]]",
@@ -88,12 +88,12 @@ class Page:
         return self.ask("return ['x', 'y'].map((which) => range(plots[arguments[0]], which))", plot)
 
     def picture(self, plot):
-        """Of a canvas, with what lies beneath it transparent."""
+        """The picture of a canvas, with a transparent background."""
         url = self.ask("return plots[arguments[0]].canvas.toDataURL('image/png')", plot)
         return Image.open(io.BytesIO(base64.b64decode(url.split(",")[1]))).convert("RGBA")
 
     def marks(self):
-        """Of each plot: where its cursor, or the mark on the plan, lies; None where there is none."""
+        """Of each plot: the position of its cursor, or of the mark on the plan; None if there is none."""
         return self.ask("""return plots.map(({box, spec}) => { const mark = box.querySelector(spec.plan ? '.here' : '.cursor');
                            return mark.hidden ? null : [parseFloat(mark.style.left), parseFloat(mark.style.top)]; })""")
 
@@ -126,7 +126,7 @@ class Reports(CommandTest):
         return out
 
     def expect_drawn(self, page, plot, least_colours):
-        """The canvas shows something, in at least so many colours of its layers."""
+        """The canvas is not empty, and has at least this number of its layers' colours."""
         picture = page.picture(plot)
         drawn = {colour for _, colour in picture.getcolors(picture.width * picture.height) if colour[3] == 255}
         names = page.ask("return plots[arguments[0]].spec.layers.map((layer) => colour(layer.colour || 'ink'))", plot)

@@ -1,4 +1,4 @@
-"""The vehicle on maps of a part of its road, in good light and bad: it is right, or says nothing.
+"""The vehicle on maps of a part of its road, in good light and bad: its fixes are right, or there are none.
 
 A fix is confidently wrong that is off by more than a metre and five of its own sigmas, in plan. The recordings
 are skipped, saying so, where they are missing: they cannot be part of the project.
@@ -19,7 +19,7 @@ SPOILT = ("plain", "soft", "dark")
 
 
 def off_m(fix, truth, origin):
-    """Distance in plan of a fix from where the frame was taken, in the drive's local frame."""
+    """Horizontal distance of a fix from the frame's true position, in the drive's local frame."""
     north_m = (float(fix["latitude_deg"]) - origin["latitude_deg"]) * METRES_OF_A_DEGREE
     east_m = ((float(fix["longitude_deg"]) - origin["longitude_deg"]) * METRES_OF_A_DEGREE *
               math.cos(math.radians(origin["latitude_deg"])))

@@ -1,4 +1,4 @@
-"""The command milepost-client vanishing, as a user calls it."""
+"""The command milepost-client vanishing, called as by a user."""
 import json
 import math
 
@@ -46,7 +46,7 @@ class Vanishing(CommandTest):
         for direction in entry["directions"]:
             self.assertAlmostEqual(math.hypot(*direction["direction"]), 1, places=9)
             self.assertIn(direction["orientation"], ("vertical", "horizontal"))
-            if direction["orientation"] == "vertical":  # the street's camera stands level
+            if direction["orientation"] == "vertical":  # the street's camera is level
                 self.assertLess(direction["direction"][1], -0.99)
 
     def test_wrong_calls(self):

@@ -1,7 +1,7 @@
 """Vanishing directions in photographs of real buildings, against the York Urban Line Segment Database.
 
 Each of an image's three true directions is compared with a found one: the assignment with the least sum of angles, one
-found direction for at most one true one; a true direction that is left without counts as 90 degrees. Skipped, saying
+found direction for at most one true one; a true direction without a match counts as 90 degrees. Skipped, saying
 so, without the photographs, which cannot be part of the project.
 """
 import itertools
@@ -19,12 +19,12 @@ NOT_FOUND_DEG = 90.0
 
 
 def angle_deg(a, b):
-    """Between two unit vectors or their opposites."""
+    """The angle between two unit vectors or their opposites."""
     return math.degrees(math.acos(min(1.0, abs(sum(x * y for x, y in zip(a, b))))))
 
 
 def errors_deg(true, found):
-    """One error a true direction, of the best assignment of the found ones."""
+    """One error per true direction, for the best assignment of the found ones."""
     places = [*range(len(found)), *[None] * len(true)]
     assignments = ([NOT_FOUND_DEG if place is None else angle_deg(direction, found[place])
                     for direction, place in zip(true, chosen)]
@@ -50,7 +50,7 @@ class Scoring(unittest.TestCase):
 @unittest.skipUnless((PHOTOGRAPHS / "ground_truth.json").is_file(), f"there are no photographs in {PHOTOGRAPHS}")
 class YorkUrban(CommandTest):
     def errors_of(self, method):
-        """All errors of a method, which it also prints a line about."""
+        """All errors of a method, of which it also prints a summary line."""
         truth = json.loads((PHOTOGRAPHS / "ground_truth.json").read_text())
         camera, found_file = self.folder / "camera.json", self.folder / "found.json"
         camera.write_text(json.dumps({"camera": truth["camera"]}))

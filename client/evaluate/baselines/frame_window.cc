@@ -14,7 +14,7 @@ Covered FrameWindow::cover(const HeldMap& held, const AlongRange& range) {
   Covered covered = tiles_.cover(held, range);
   if (!covered.changed) return covered;
   frames_.clear();
-  tiles_.for_each([this](const FrameTile& tile) {
+  tiles_.for_each([this](const ImageDescriptorTile& tile) {
     for (const DatabaseFrame& frame : tile.frames) frames_.emplace_back(frame, index_);
   });
   return covered;

@@ -17,7 +17,7 @@ class IndexedFrame {
       : frame_(&frame), settings_(settings) {}
 
   const DatabaseFrame& frame() const { return *frame_; }
-  // Made when it is first asked for: most frames held are never matched.
+  // Built on first use: most held frames are never matched.
   const DescriptorIndex& index() const;
 
  private:
@@ -31,14 +31,14 @@ class FrameWindow {
  public:
   FrameWindow(SegmentKey segment, const WindowReach& reach, const IndexSettings& index);
 
-  // Takes every frame in `range` that is held, and lets go of others.
+  // Loads every held frame in `range` and discards others.
   Covered cover(const HeldMap& held, const AlongRange& range);
 
-  // By ascending along. Valid until the next cover().
+  // By ascending arc length. Valid until the next cover().
   const std::vector<IndexedFrame>& frames() const { return frames_; }
 
  private:
-  TileWindow<FrameTile> tiles_;
+  TileWindow<ImageDescriptorTile> tiles_;
   IndexSettings index_;
   std::vector<IndexedFrame> frames_;
 };

@@ -20,23 +20,24 @@ AlongBelief update(const AlongBelief& predicted, const Measurement& measurement,
 }
 
 MotionBelief predict(const MotionBelief& belief, double dt_s, double acceleration_sigma) {
-  Eigen::Matrix2d transition;
-  transition << 1, dt_s, 0, 1;
-  Eigen::Matrix2d noise;
-  noise << dt_s * dt_s * dt_s / 3, dt_s * dt_s / 2, dt_s * dt_s / 2, dt_s;
-  noise *= acceleration_sigma * acceleration_sigma;
-  return {transition * belief.mean,
-          transition * belief.covariance * transition.transpose() + noise};
+  Eigen::Matrix2d F;  // transition
+  F << 1, dt_s, 0, 1;
+  Eigen::Matrix2d Q;  // process noise
+  Q << dt_s * dt_s * dt_s / 3, dt_s * dt_s / 2, dt_s * dt_s / 2, dt_s;
+  Q *= acceleration_sigma * acceleration_sigma;
+  return {F * belief.x, F * belief.P * F.transpose() + Q};
 }
 
 MotionBelief update(const MotionBelief& predicted, const Measurement& measurement) {
-  const Eigen::RowVector2d observe(1, 0);
-  const double variance_y = measurement.sigma_m * measurement.sigma_m;
-  const double innovation_variance = predicted.covariance(0, 0) + variance_y;
-  const Eigen::Vector2d gain = predicted.covariance.col(0) / innovation_variance;
-  const Eigen::Matrix2d keep = Eigen::Matrix2d::Identity() - gain * observe;
-  return {predicted.mean + gain * (measurement.along_m - predicted.mean[0]),
-          keep * predicted.covariance * keep.transpose() + gain * variance_y * gain.transpose()};
+  const Eigen::Vector2d& x = predicted.x;
+  const Eigen::Matrix2d& P = predicted.P;
+  const double z = measurement.along_m;
+  const double R = measurement.sigma_m * measurement.sigma_m;
+  const Eigen::RowVector2d H(1, 0);
+  const double S = P(0, 0) + R;
+  const Eigen::Vector2d K = P.col(0) / S;  // gain
+  const Eigen::Matrix2d I_KH = Eigen::Matrix2d::Identity() - K * H;
+  return {x + K * (z - x[0]), I_KH * P * I_KH.transpose() + K * R * K.transpose()};
 }
 
 }  // namespace milepost

@@ -8,7 +8,7 @@
 
 namespace milepost {
 
-// A Gaussian belief over along.
+// A Gaussian belief over arc length.
 struct AlongBelief {
   double along_m = 0;
   double variance_m2 = 0;
@@ -27,17 +27,17 @@ AlongBelief predict(const AlongBelief& belief, double step_m, double sigma_w_m);
 AlongBelief update(const AlongBelief& predicted, const Measurement& measurement,
                    double variance_weight);
 
-// A Gaussian belief over along (m) and speed (m/s): ours.
+// A Gaussian with mean x and covariance P over arc length (m) and speed (m/s): ours.
 struct MotionBelief {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();  // along_m, speed_mps
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d x = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d P = Eigen::Matrix2d::Identity();
 };
 
 // Constant speed disturbed by white acceleration noise of `acceleration_sigma` (m/s^2 / sqrt(Hz)).
 // REQUIRES: dt_s >= 0.
 MotionBelief predict(const MotionBelief& belief, double dt_s, double acceleration_sigma);
 
-// The update with a measurement of along, in Joseph's form, so the covariance stays one.
+// The update with a measurement of arc length, in Joseph form, which keeps P positive definite.
 MotionBelief update(const MotionBelief& predicted, const Measurement& measurement);
 
 }  // namespace milepost

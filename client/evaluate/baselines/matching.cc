@@ -9,12 +9,12 @@
 namespace milepost {
 namespace {
 
-constexpr double kMinSigmaM = 1e-3;  // of an estimate: no tracklet is exact
+constexpr double kMinSigmaM = 1e-3;  // lower bound of an estimate's sigma
 
 struct Candidate {
   std::size_t tracklet = 0;
   float distance_squared = 0;
-  double along_m = 0;  // where it would put the camera
+  double along_m = 0;  // the position of the camera that it implies
 };
 
 PositionEstimate regressed(const Tracklet& tracklet, ScaleModel model, double scale_px,
@@ -26,7 +26,8 @@ PositionEstimate regressed(const Tracklet& tracklet, ScaleModel model, double sc
   return {along_m, std::max(std::hypot(tracklet.residual_sigma_m, from_scale_m), kMinSigmaM)};
 }
 
-// The frame of the observation whose scale is the closest, known to the spacing of the frames.
+// The frame of the observation with the closest scale; its uncertainty is the spacing of the
+// frames.
 PositionEstimate closest_observation(const Track& track, double scale_px) {
   const auto closest = std::ranges::min_element(track, {}, [&](const Observation& observation) {
     return std::abs(observation.feature.scale_px - scale_px);
@@ -54,8 +55,8 @@ bool fits(const Tracklet& tracklet, const Feature& feature, double scale_px, dou
          feature.y_px <= pixels.y_max_px + pixel_margin_px;
 }
 
-// The nearest neighbour within the region, if it passes the ratio test against the next one there.
-// Where fewer neighbours were looked at than there are, the last one bounds those unseen.
+// The nearest neighbour within the region if it passes the ratio test against the second there. If
+// not all neighbours were examined, the last one bounds the distance of the others.
 std::optional<Candidate> distinct_nearest(const std::vector<Neighbour>& neighbours, double scale_px,
                                           const TrackletWindow& window, const AlongRange& region,
                                           const MatchSettings& settings) {
@@ -123,7 +124,7 @@ std::vector<TrackletMatch> match_tracklets(const FeatureSet& query, double scale
       matches.push_back({best.feature, tracklet, scale_px, estimate});
   }
   std::sort(matches.begin(), matches.end(), [](const TrackletMatch& a, const TrackletMatch& b) {
-    return a.feature < b.feature;  // an order that no hash decides
+    return a.feature < b.feature;  // a deterministic order, independent of hashing
   });
   return matches;
 }

@@ -9,8 +9,8 @@
 namespace milepost {
 namespace {
 
-// Regression on scale, the mean of all estimates, without and with a filter: the tracklet paper's
-// proposed methods 1 and 2 (section 5.2), and the particle filter of section 5.4.
+// Regression on scale and the mean of all estimates, without and with a filter: the tracklet
+// paper's proposed methods 1 and 2 (section 5.2), and the particle filter of section 5.4.
 TrackletMethod paper_method(PaperFilter filter) {
   TrackletMethod method;
   method.match.region_margin_m = 0;
@@ -19,15 +19,15 @@ TrackletMethod paper_method(PaperFilter filter) {
   return method;
 }
 
-// The regression of tracklet-regression with the descriptors of all observations in place of their
-// mean: what averaging costs. For the laboratory.
+// tracklet-regression with the descriptors of all observations instead of their mean, to measure
+// the cost of averaging. For the laboratory.
 TrackletMethod unaveraged_method() {
   TrackletMethod method = paper_method(PaperFilter::none);
   method.match.neighbours = 40;  // a tracklet has as many descriptors as observations
   return method;
 }
 
-// Comparative method 3: the closest frame of the map for each feature, no regression.
+// Comparative method 3: the closest frame of the map for each feature, without regression.
 TrackletMethod matching_method() {
   TrackletMethod method = unaveraged_method();
   method.match.estimation = Estimation::closest_observation;
@@ -41,7 +41,7 @@ WarpMethod warp_method(FrameComparison comparison) {
   return method;
 }
 
-// Ours before landmarks: the regression on -1/scale.
+// Our previous method: regression on -1/scale.
 TrackletMethod inverse_scale_method() {
   TrackletMethod method;
   method.match.max_distance_ratio = 0.85;
@@ -54,18 +54,19 @@ TrackletMethod inverse_scale_method() {
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
-      {"wisurf", layers::kWholeImages, warp_scouts(warp_method(FrameComparison::image))},
-      {"scale-only", layers::kFrames, warp_scouts(warp_method(FrameComparison::scale))},
-      {"tracklet-matching", layers::kObservations, tracklet_scouts(matching_method())},
+      {"wisurf", layers::kWholeImages, warp_relocalizers(warp_method(FrameComparison::image))},
+      {"scale-only", layers::kFrames, warp_relocalizers(warp_method(FrameComparison::scale))},
+      {"tracklet-matching", layers::kObservations, tracklet_relocalizers(matching_method())},
       {"tracklet-regression", layers::kTrackletsByScale,
-       tracklet_scouts(paper_method(PaperFilter::none))},
+       tracklet_relocalizers(paper_method(PaperFilter::none))},
       {"tracklet-regression-kalman", layers::kTrackletsByScale,
-       tracklet_scouts(paper_method(PaperFilter::kalman))},
+       tracklet_relocalizers(paper_method(PaperFilter::kalman))},
       {"tracklet-regression-particle", layers::kTrackletsByScale,
-       tracklet_scouts(paper_method(PaperFilter::particle))},
+       tracklet_relocalizers(paper_method(PaperFilter::particle))},
       {"tracklet-regression-unaveraged", layers::kObservations,
-       tracklet_scouts(unaveraged_method())},
-      {"inverse-scale", layers::kTrackletsByInverseScale, tracklet_scouts(inverse_scale_method())},
+       tracklet_relocalizers(unaveraged_method())},
+      {"inverse-scale", layers::kTrackletsByInverseScale,
+       tracklet_relocalizers(inverse_scale_method())},
       landmark_method(),
   };
   return all;
@@ -85,7 +86,7 @@ Result<Method> method_named(const std::string& name) {
     if (method.name == name) return method;
     known += (known.empty() ? "" : ", ") + method.name;
   }
-  return Error{ErrorCode::invalid_input, "--method", "'" + name + "' is no method",
+  return Error{ErrorCode::invalid_input, "--method", "'" + name + "' is not a method",
                "choose from " + known};
 }
 
@@ -109,7 +110,7 @@ std::optional<Measurement> combine(const std::vector<PositionEstimate>& estimate
                                                  : combine_robustly(estimates, method.robust);
 }
 
-std::unique_ptr<Tracker> make_tracker(const TrackletMethod& method) {
+std::unique_ptr<ArcLengthTracker> make_tracker(const TrackletMethod& method) {
   if (const auto* paper = std::get_if<PaperTrackerSettings>(&method.tracker)) {
     return make_paper_tracker(*paper);
   }

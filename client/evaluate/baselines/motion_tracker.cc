@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/evaluate/baselines/arc_length_tracker.h"
 #include "client/evaluate/baselines/kalman.h"
-#include "client/evaluate/baselines/tracker.h"
 
 namespace milepost {
 namespace {
 
-class MotionTracker : public Tracker {
+class MotionTracker : public ArcLengthTracker {
  public:
   explicit MotionTracker(const MotionTrackerSettings& settings) : settings_(settings) {}
 
@@ -15,19 +15,18 @@ class MotionTracker : public Tracker {
     latest_s_ = timestamp_s;
     refusals_ = 0;
     shared_sigma_m_ = measurement.shared_sigma_m;
-    belief_.mean = {measurement.along_m, settings_.start_speed_mps};
-    belief_.covariance =
-        Eigen::Vector2d(measurement.sigma_m * measurement.sigma_m,
-                        settings_.start_speed_sigma_mps * settings_.start_speed_sigma_mps)
-            .asDiagonal();
+    belief_.x = {measurement.along_m, settings_.start_speed_mps};
+    belief_.P = Eigen::Vector2d(measurement.sigma_m * measurement.sigma_m,
+                                settings_.start_speed_sigma_mps * settings_.start_speed_sigma_mps)
+                    .asDiagonal();
   }
 
-  TrackedPosition predict(double timestamp_s) const override {
+  TrackedPose predict(double timestamp_s) const override {
     return position_of(predicted_at(timestamp_s));
   }
 
   AlongRange search_region(double timestamp_s) const override {
-    const TrackedPosition expected = predict(timestamp_s);
+    const TrackedPose expected = predict(timestamp_s);
     const double reach_m =
         std::max(settings_.min_region_m, settings_.region_sigmas * expected.sigma_m);
     return AlongRange{expected.along_m, expected.along_m}.widened(reach_m);
@@ -45,17 +44,16 @@ class MotionTracker : public Tracker {
       return true;
     }
     if (++refusals_ < settings_.max_refusals) return false;
-    start(timestamp_s, *measurement);  // it is the belief that was wrong
+    start(timestamp_s, *measurement);  // the belief was wrong
     return true;
   }
 
-  TrackedPosition position() const override { return position_of(belief_); }
+  TrackedPose position() const override { return position_of(belief_); }
 
  private:
   bool believable(const MotionBelief& predicted, const Measurement& measurement) const {
-    const double innovation_sigma_m =
-        std::hypot(std::sqrt(predicted.covariance(0, 0)), measurement.sigma_m);
-    return std::abs(measurement.along_m - predicted.mean[0]) <=
+    const double innovation_sigma_m = std::hypot(std::sqrt(predicted.P(0, 0)), measurement.sigma_m);
+    return std::abs(measurement.along_m - predicted.x[0]) <=
            settings_.gate_sigmas * innovation_sigma_m;
   }
 
@@ -63,9 +61,9 @@ class MotionTracker : public Tracker {
     return milepost::predict(belief_, timestamp_s - latest_s_, settings_.acceleration_sigma);
   }
 
-  // The filter averages what differs from frame to frame; what frames share stays.
-  TrackedPosition position_of(const MotionBelief& belief) const {
-    return {belief.mean[0], std::hypot(std::sqrt(belief.covariance(0, 0)), shared_sigma_m_)};
+  // The filter averages out independent errors of frames; shared errors remain.
+  TrackedPose position_of(const MotionBelief& belief) const {
+    return {belief.x[0], std::hypot(std::sqrt(belief.P(0, 0)), shared_sigma_m_)};
   }
 
   MotionTrackerSettings settings_;
@@ -77,7 +75,7 @@ class MotionTracker : public Tracker {
 
 }  // namespace
 
-std::unique_ptr<Tracker> make_motion_tracker(const MotionTrackerSettings& settings) {
+std::unique_ptr<ArcLengthTracker> make_motion_tracker(const MotionTrackerSettings& settings) {
   return std::make_unique<MotionTracker>(settings);
 }
 

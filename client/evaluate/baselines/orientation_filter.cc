@@ -12,67 +12,69 @@ namespace {
 // Section IV.
 constexpr MotionNoise kMotionNoise{0.1, 0, 5 * kRadPerDeg};
 
-// A particle that explains nothing keeps a trace, so that the weights have a sum.
+// Keeps the sum of the weights above 0.
 constexpr double kLeastImportance = 1e-9;
 
 class OrientationFilter : public PlanFilter {
  public:
-  OrientationFilter(const WallIndex& walls, const PlanBox& area, const FilterSettings& settings)
+  OrientationFilter(const RayCastingGrid& walls, const PlanBox& area,
+                    const FilterSettings& settings)
       : walls_(walls),
         area_(area),
         settings_(settings),
         random_(settings.seed),
-        cloud_(first_cloud(settings, area, random_)),
-        watch_(watch_settings(settings)) {}
+        particles_(initial_particles(settings, area, random_)),
+        monitor_(convergence_settings(settings)) {}
 
-  Found update(const WallObservation& observation, const WheelMotion& motion) override {
+  PlanEstimate update(const WallObservation& observation,
+                      const OdometryIncrement& motion) override {
     if (is_moving(motion)) {
-      move_cloud(cloud_, motion, kMotionNoise, walls_, area_, Crossing::drawn_anew, random_);
+      propagate(particles_, motion, kMotionNoise, walls_, area_, Crossing::drawn_anew, random_);
     }
     weigh_by_importance(observation);
-    const BeliefMode mode = densest_mode(cloud_, {});
-    const FindStatus status =
-        watch_.observe(mode, explained_by(mode.pose, observation), false, motion);
-    cloud_ = resampled(cloud_, settings_.particles, random_);
-    return {status, mode, watch_.explained()};
+    const BeliefMode mode = densest_mode(particles_, {});
+    const GlobalStatus status =
+        monitor_.observe(mode, inlier_ratio_of(mode.pose, observation), false, motion);
+    particles_ = resampled(particles_, settings_.particles, random_);
+    return {status, mode, monitor_.inlier_ratio()};
   }
 
-  const ParticleCloud& particles() const override { return cloud_; }
+  const ParticleSet& particles() const override { return particles_; }
 
  private:
-  double importance(const PlanPose& pose, const WallObservation& observation) const {
+  double importance(const Pose2& pose, const WallObservation& observation) const {
     return orientation_importance(pose, observation.sections, walls_, settings_.view_reach_m);
   }
 
-  // Eq. 4. Every frame weighs alike.
+  // Eq. 4. Every frame has the same weight.
   void weigh_by_importance(const WallObservation& observation) {
     if (observation.sections.empty()) return;
     std::vector<double> log_likelihoods;
-    log_likelihoods.reserve(cloud_.size());
-    for (const Particle& particle : cloud_) {
+    log_likelihoods.reserve(particles_.size());
+    for (const Particle& particle : particles_) {
       log_likelihoods.push_back(
           std::log(kLeastImportance + importance(particle.pose, observation)));
     }
-    weigh_cloud(cloud_, log_likelihoods);
+    update_weights(particles_, log_likelihoods);
   }
 
-  std::optional<double> explained_by(const PlanPose& pose,
-                                     const WallObservation& observation) const {
+  std::optional<double> inlier_ratio_of(const Pose2& pose,
+                                        const WallObservation& observation) const {
     if (observation.sections.empty()) return std::nullopt;
     return importance(pose, observation);
   }
 
-  const WallIndex& walls_;
+  const RayCastingGrid& walls_;
   PlanBox area_;
   FilterSettings settings_;
   Random random_;
-  ParticleCloud cloud_;
-  ModeWatch watch_;
+  ParticleSet particles_;
+  ConvergenceMonitor monitor_;
 };
 
 }  // namespace
 
-FindMethod orientations_method() {
+GlobalMethod orientations_method() {
   return {.with_beams = false, .make_filter = make_plan_filter<OrientationFilter>};
 }
 

@@ -1,4 +1,4 @@
-// The particle filter of the aerial paper, section IV, as it stands there: particles weighed frame
+// The particle filter of the aerial paper, section IV, as published: particles are weighted frame
 // by frame by the orientations of walls alone.
 #pragma once
 
@@ -6,6 +6,6 @@
 
 namespace milepost {
 
-FindMethod orientations_method();
+GlobalMethod orientations_method();
 
 }  // namespace milepost

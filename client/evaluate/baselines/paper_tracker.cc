@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "client/evaluate/baselines/along_filter.h"
+#include "client/evaluate/baselines/arc_length_tracker.h"
 #include "client/evaluate/baselines/kalman.h"
-#include "client/evaluate/baselines/tracker.h"
 
 namespace milepost {
 namespace {
@@ -18,7 +18,7 @@ AlongBelief as_measured(const Measurement& measurement) {
   return {measurement.along_m, measurement.sigma_m * measurement.sigma_m};
 }
 
-class PaperTracker : public Tracker {
+class PaperTracker : public ArcLengthTracker {
  public:
   explicit PaperTracker(const PaperTrackerSettings& settings)
       : settings_(settings), filter_(make_filter(settings)) {}
@@ -30,7 +30,7 @@ class PaperTracker : public Tracker {
     frames_ = 1;
   }
 
-  TrackedPosition predict(double timestamp_s) const override {
+  TrackedPose predict(double timestamp_s) const override {
     const AlongBelief predicted =
         milepost::predict(filter_->belief(), step_to(timestamp_s), settings_.sigma_w_m);
     return {predicted.along_m, std::sqrt(predicted.variance_m2)};
@@ -61,7 +61,7 @@ class PaperTracker : public Tracker {
     return is_measured;
   }
 
-  TrackedPosition position() const override {
+  TrackedPose position() const override {
     const AlongBelief belief = filter_->belief();
     return {belief.along_m, std::sqrt(belief.variance_m2)};
   }
@@ -72,14 +72,14 @@ class PaperTracker : public Tracker {
     double time_s = 0;
   };
 
-  // Section 4.2.3: the motion model has little say until the measurement is off by a threshold.
+  // Section 4.2.3: the motion model has little weight until the innovation exceeds a threshold.
   double variance_weight(const AlongBelief& predicted, const Measurement& measurement) const {
     const double innovation_m = std::abs(measurement.along_m - predicted.along_m);
     return innovation_m <= settings_.innovation_threshold_m ? settings_.weight_within
                                                             : settings_.weight_beyond;
   }
 
-  // Eq. 16 within what a vehicle on its way along the segment can do.
+  // Eq. 16, limited to forward motion up to the maximum speed.
   double step_to(double timestamp_s) const {
     if (!before_) return 0;
     const double step_m = constant_velocity_step_m(
@@ -100,7 +100,7 @@ class PaperTracker : public Tracker {
 
 }  // namespace
 
-std::unique_ptr<Tracker> make_paper_tracker(const PaperTrackerSettings& settings) {
+std::unique_ptr<ArcLengthTracker> make_paper_tracker(const PaperTrackerSettings& settings) {
   return std::make_unique<PaperTracker>(settings);
 }
 

@@ -38,8 +38,8 @@ class ParticleFilter : public AlongFilter {
   AlongBelief belief() const override { return belief_; }
 
  private:
-  // Eq. 6 for each particle, relative to the most likely one: far from every particle the density
-  // itself is 0 in floating point.
+  // Eq. 6 for each particle, relative to the most likely one: far from all particles the density
+  // underflows.
   void weigh(const Measurement& measurement, double variance_weight) {
     const double variance_y = variance_weight * measurement.sigma_m * measurement.sigma_m;
     const auto squared_off_m2 = [&](double along_m) {

@@ -15,11 +15,11 @@ std::optional<ScaleChange> scale_change(const FeatureSet& query, double scale_ra
     if (neighbours[i].size() < 2) continue;
     const Neighbour& nearest = neighbours[i][0];
     if (nearest.distance_squared > ratio_squared * neighbours[i][1].distance_squared) continue;
-    const Feature& seen = query.features[i];
+    const Feature& observed = query.features[i];
     const Feature& stored = map_frame.frame().features.features[nearest.index];
-    if (std::hypot(seen.x_px - stored.x_px, seen.y_px - stored.y_px) > max_displacement_px)
+    if (std::hypot(observed.x_px - stored.x_px, observed.y_px - stored.y_px) > max_displacement_px)
       continue;
-    change.mean += std::abs(std::log(scale_ratio * seen.scale_px / stored.scale_px));
+    change.mean += std::abs(std::log(scale_ratio * observed.scale_px / stored.scale_px));
     ++change.matches;
   }
   if (change.matches < settings.min_matches) return std::nullopt;

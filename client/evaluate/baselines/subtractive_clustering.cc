@@ -7,7 +7,7 @@
 namespace milepost {
 namespace {
 
-// Of the chord between the points or their opposites, whichever is shorter.
+// Of the chord between the points or between one and the other's opposite, whichever is shorter.
 double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::max(0.0, 2 * (1 - std::abs(a.dot(b))));
 }
@@ -52,7 +52,7 @@ std::vector<Eigen::Vector3d> cluster_centres(std::span<const Eigen::Vector3d> po
     if (share < settings.reject_share) break;
     const double apart = distance_to_nearest(point, centres) / settings.radius_rad;
     if (share < settings.accept_share && apart + share < 1) {
-      *highest = 0;  // too near to a centre to be one of its own
+      *highest = 0;  // too near to an existing centre
       continue;
     }
     const double height = *highest;

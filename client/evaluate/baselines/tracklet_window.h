@@ -22,14 +22,14 @@ class TrackletWindow {
  public:
   TrackletWindow(SegmentKey segment, const WindowSettings& settings);
 
-  // Takes every tracklet that is held and whose along range meets `range`, and lets go of others.
+  // Loads every held tracklet whose arc length range meets `range` and discards others.
   Covered cover(const HeldMap& held, const AlongRange& range);
 
   // Valid until the next cover().
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }
   const Track& track(std::size_t tracklet) const { return tracks_[tracklet]; }  // may be empty
   ScaleModel model() const { return model_; }
-  // Over the tracklets' descriptors, or over those of all their observations where the layer keeps
+  // Over the tracklets' descriptors, or over those of all their observations if the layer stores
   // them.
   const DescriptorIndex& index() const { return *index_; }
   // The tracklet that a descriptor of the index belongs to.
@@ -43,7 +43,7 @@ class TrackletWindow {
   WindowSettings settings_;
   ScaleModel model_ = ScaleModel::inverse_scale;
   std::vector<Tracklet> tracklets_;
-  std::vector<Track> tracks_;            // one a tracklet
+  std::vector<Track> tracks_;            // one per tracklet
   std::vector<Descriptor> descriptors_;  // of the index
   std::vector<std::size_t> tracklet_of_;
   std::unique_ptr<DescriptorIndex> index_;

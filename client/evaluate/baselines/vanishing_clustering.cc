@@ -9,7 +9,7 @@
 namespace milepost {
 namespace {
 
-// Pairs of more lines than these make clustering slow and hardly better.
+// With more lines the pairs make clustering slow and hardly better.
 constexpr std::size_t kClusteredLines = 90;
 constexpr double kMinMeetingAngleRad = 0.5 * kRadPerDeg;
 constexpr double kMaxArcDistanceRad = 4 * kRadPerDeg;

@@ -1,12 +1,12 @@
-// Vanishing directions as the aerial paper finds them (section III): subtractive clustering of
-// where lines meet on the Gaussian sphere, lines classed by their arc distance.
+// Vanishing directions by the method of the aerial paper (section III): subtractive clustering of
+// line intersections on the Gaussian sphere; lines are assigned by arc distance.
 #pragma once
 
 #include "client/global/vanishing_directions.h"
 
 namespace milepost {
 
-// Like vanishing_directions(), whose evidence it takes the place of.
+// Like vanishing_directions(), with clustering instead of likelihoods.
 VanishingDirections clustered_vanishing_directions(std::span<const LineSegment> segments,
                                                    const Pinhole& view,
                                                    const VanishingSettings& settings = {});

@@ -21,10 +21,11 @@ namespace fs = std::filesystem;
 constexpr int kMostPixels = 1600;  // of width or height
 constexpr int kJpegQuality = 82;
 constexpr double kColourLeft = 0.2;
-constexpr const char* kWarpMend =
-    "make the picture by gdalwarp -t_srs EPSG:4326, then gdal_translate -of JPEG -co WORLDFILE=YES";
+constexpr const char* kWarpHint =
+    "make the image with gdalwarp -t_srs EPSG:4326, then gdal_translate -of JPEG -co WORLDFILE=YES";
 
-// .pgw of .png, .jgw of .jpg and .jpeg: the first and the last letter of the ending, and a w.
+// The usual extension of a format's world file, .pgw for .png and .jgw for .jpg and .jpeg: the
+// first and the last letter of the image's extension, and a w.
 std::string usual_ending(const fs::path& image) {
   const std::string ending = image.extension().string();
   if (ending.size() < 3) return ".wld";
@@ -39,7 +40,7 @@ Result<fs::path> world_file_beside(const fs::path& image) {
     if (fs::exists(file)) return file;
   }
   return Error{ErrorCode::not_found, image.string(),
-               "no world file (.wld or " + usual + ") beside the image", kWarpMend};
+               "no world file (.wld or " + usual + ") next to the image", kWarpHint};
 }
 
 Result<double> number_of(const std::string& line, const std::string& place) {
@@ -50,7 +51,7 @@ Result<double> number_of(const std::string& line, const std::string& place) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code == std::errc() && end == text.data() + text.size() && std::isfinite(value)) return value;
   return Error{ErrorCode::invalid_input, place, "'" + text + "' is not a number",
-               "a world file has six lines with a number each"};
+               "a world file has six lines with one number each"};
 }
 
 Result<WorldFile> read_world_file(const fs::path& file) {
@@ -72,12 +73,12 @@ Result<WorldFile> read_world_file(const fs::path& file) {
 Result<cv::Mat> read_colour(const fs::path& image) {
   Result<std::string> bytes = read_text_file(image);
   if (!bytes) return bytes.error();
-  // The world file is about the pixels as they lie in the file, whatever EXIF says of them.
+  // The world file refers to the pixels as stored in the file, whatever their EXIF orientation.
   Result<cv::Mat> decoded =
       decoded_image(std::move(*bytes), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (decoded) return decoded;
   const Error& error = decoded.error();
-  return Error{error.code, image.string(), "the image " + error.what, error.mend};
+  return Error{error.code, image.string(), "the image " + error.what, error.hint};
 }
 
 cv::Mat scaled_down(const cv::Mat& image) {
@@ -90,7 +91,7 @@ cv::Mat scaled_down(const cv::Mat& image) {
   return small;
 }
 
-// With most of its colour taken away.
+// The image with most of its colour removed.
 cv::Mat muted(const cv::Mat& bgr) {
   cv::Mat gray;
   cv::cvtColor(bgr, gray, cv::COLOR_BGR2GRAY);
@@ -106,8 +107,8 @@ Bytes jpeg_of(const cv::Mat& image) {
   return jpeg;
 }
 
-// Outer corners of a part of a picture. Places are counted from the centre of a pixel, so they lie
-// half a pixel outside the centres of the outermost.
+// Outer corners of a part of an image. Pixel coordinates refer to pixel centres, so the corners lie
+// half a pixel outside the outermost centres.
 struct Corners {
   Corners(const WorldFile& world, const cv::Rect& part)
       : top_left(world.at({part.x - 0.5, part.y - 0.5})),
@@ -118,15 +119,15 @@ struct Corners {
   GeoPoint top_left, top_right, bottom_left, bottom_right;
 };
 
-// The pixels of a picture around a box; none where they do not meet.
+// The pixels of an image that cover a box; empty if they do not overlap.
 cv::Rect part_around(const Backdrop& backdrop, const Bounds& box) {
-  const std::array<cv::Point2d, 4> corners = {backdrop.world.pixel_of(box.south_deg, box.west_deg),
-                                              backdrop.world.pixel_of(box.south_deg, box.east_deg),
-                                              backdrop.world.pixel_of(box.north_deg, box.west_deg),
-                                              backdrop.world.pixel_of(box.north_deg, box.east_deg)};
+  const std::array<cv::Point2d, 4> corners = {backdrop.world.project(box.south_deg, box.west_deg),
+                                              backdrop.world.project(box.south_deg, box.east_deg),
+                                              backdrop.world.project(box.north_deg, box.west_deg),
+                                              backdrop.world.project(box.north_deg, box.east_deg)};
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x, corners[3].x});
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y, corners[3].y});
-  // Clamped before they become whole numbers, which hold no box far away.
+  // Clamped before the conversion to int, which would overflow for a distant box.
   const auto pixel = [](double place, int pixels) {
     return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(pixels)));
   };
@@ -138,7 +139,7 @@ cv::Rect part_around(const Backdrop& backdrop, const Bounds& box) {
 
 }  // namespace
 
-cv::Point2d WorldFile::pixel_of(double latitude_deg, double longitude_deg) const {
+cv::Point2d WorldFile::project(double latitude_deg, double longitude_deg) const {
   const double east_deg = longitude_deg - c;
   const double north_deg = latitude_deg - f;
   return {(e * east_deg - b * north_deg) / determinant(),
@@ -164,13 +165,13 @@ Result<Backdrop> read_backdrop(const fs::path& image) {
   const Result<WorldFile> world = read_world_file(*file);
   if (!world) return world.error();
   if (world->determinant() == 0) {
-    return Error{ErrorCode::invalid_input, file->string(),
-                 "lines 1 to 4: a picture of that size covers nothing", kWarpMend};
+    return Error{ErrorCode::invalid_input, file->string(), "lines 1 to 4: the pixels cover no area",
+                 kWarpHint};
   }
   Backdrop backdrop{*pixels, *world};
   if (backdrop.bounds().is_valid()) return backdrop;
   return Error{ErrorCode::invalid_input, file->string(),
-               "lines 5 and 6: the picture reaches beyond the Earth's degrees", kWarpMend};
+               "lines 5 and 6: the image extends beyond valid WGS84 degrees", kWarpHint};
 }
 
 std::optional<PagePicture> page_picture(const Backdrop& backdrop, const Bounds& shown) {

@@ -1,4 +1,4 @@
-// A picture from above that a report shows beneath its plans.
+// An aerial background image for the plans of a report.
 #pragma once
 
 #include <array>
@@ -14,45 +14,44 @@
 
 namespace milepost {
 
-// Six numbers that place a picture on the Earth: a pixel (column, row) has its centre at longitude
-// c + a * column + b * row, latitude f + d * column + e * row, in WGS84 degrees. The file has them
-// in the order a, d, b, e, c, f, one a line.
+// The six numbers that georeference an image: pixel (column, row) has its centre at longitude c + a
+// * column + b * row, latitude f + d * column + e * row, in WGS84 degrees. The file lists them in
+// the order a, d, b, e, c, f, one per line.
 struct WorldFile {
   double a = 0, d = 0, b = 0, e = 0, c = 0, f = 0;
 
-  // Of a place in the picture, in pixels from the centre of its top left one; altitude 0.
+  // The position of a point in pixels from the centre of the top left pixel; altitude 0.
   GeoPoint at(const cv::Point2d& pixel) const {
     return {f + d * pixel.x + e * pixel.y, c + a * pixel.x + b * pixel.y, 0};
   }
-  // How much a pixel covers, in square degrees, with a sign; 0 for none.
+  // The signed area of a pixel in square degrees; 0 is invalid.
   double determinant() const { return a * e - b * d; }
   // The inverse of at(). REQUIRES: the determinant is not 0.
-  cv::Point2d pixel_of(double latitude_deg, double longitude_deg) const;
+  cv::Point2d project(double latitude_deg, double longitude_deg) const;
 };
 
 struct Backdrop {
   cv::Mat bgr;  // 8 bits
   WorldFile world;
 
-  Bounds bounds() const;  // around all of it
+  Bounds bounds() const;  // around the whole image
 };
 
-// Reads a picture in a format of OpenCV's (PNG, JPEG) and the world file beside it: with the ending
-// .wld, or with the usual one of the format (.pgw, .jgw).
-// Errors: not_found, io; invalid_input for an image that is cut short or cannot be decoded, a line
-// of the world file that is no number (named), or numbers that are no WGS84 degrees.
+// Reads an image in a format supported by OpenCV (PNG, JPEG) and the world file next to it, with
+// the extension .wld or the usual one of the format (.pgw, .jgw). Errors: not_found, io;
+// invalid_input for an image that is truncated or cannot be decoded, a line of the world file that
+// is not a number (named), or numbers outside valid WGS84 degrees.
 Result<Backdrop> read_backdrop(const std::filesystem::path& image);
 
-// What a page shows of a picture.
+// The part of an image that is embedded in a page.
 struct PagePicture {
   Bytes jpeg;
   // Its outer corners, altitude 0.
   GeoPoint top_left, top_right, bottom_left;
 };
 
-// Of the picture the part around the box, scaled down to a size that fits a page and nearly grey,
-// so that what is drawn over it stands out by its colour; none where the box lies outside.
-// REQUIRES: the box does not cross longitude 180.
+// The part of the image around the box, scaled down to page size and nearly grey, so that coloured
+// marks stand out; none if the box lies outside. REQUIRES: the box does not cross longitude 180.
 std::optional<PagePicture> page_picture(const Backdrop& backdrop, const Bounds& shown);
 
 }  // namespace milepost

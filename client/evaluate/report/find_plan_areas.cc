@@ -6,10 +6,10 @@
 namespace milepost {
 namespace {
 
-constexpr double kHeightShare = 0.8;   // of a plan's width
-constexpr double kLeastWidthM = 80;    // but of a close-up
-constexpr double kCloseUpM = 32;       // its width
-constexpr double kCloseUpShare = 0.9;  // of the particles, at least, are in a close-up
+constexpr double kHeightShare = 0.8;   // relative to a plan's width
+constexpr double kLeastWidthM = 80;    // except for close-ups
+constexpr double kCloseUpM = 32;       // width of a close-up
+constexpr double kCloseUpShare = 0.9;  // least part of the particles in a close-up
 
 PlanArea of_even_shape(PlanArea area, double least_width_m) {
   const double width_m =
@@ -45,10 +45,10 @@ std::optional<PlanArea> close_up_area(const FoundSeries& series, const FindSnaps
   area = of_even_shape(area, kCloseUpM);
   const PlanPoint& recorded = series.recorded[snapshot.frame];
   if (std::isfinite(recorded.x) && !area.contains(recorded)) return std::nullopt;
-  const auto inside = std::count_if(snapshot.particles.begin(), snapshot.particles.end(),
-                                    [&](const PlanPose& pose) {
-                                      return area.contains({pose.enu_m.x(), pose.enu_m.y()});
-                                    });
+  const auto inside =
+      std::count_if(snapshot.particles.begin(), snapshot.particles.end(), [&](const Pose2& pose) {
+        return area.contains({pose.enu_m.x(), pose.enu_m.y()});
+      });
   if (static_cast<double>(inside) <
       kCloseUpShare * static_cast<double>(snapshot.particles.size())) {
     return std::nullopt;
@@ -60,7 +60,7 @@ Bounds shown_bounds(const FoundSeries& series) {
   PlanArea area = whole_area(series);
   const PlanArea path = path_area(series);
   area.include({{path.east.from, path.north.from}, {path.east.to, path.north.to}});
-  // A close-up reaches that much farther at most.
+  // A close-up extends at most this much further.
   area.east.widen_to(area.east.length() + kCloseUpM);
   area.north.widen_to(area.north.length() + kCloseUpM);
   const LocalFrame frame(series.input->recorder->origin());

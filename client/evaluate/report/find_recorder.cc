@@ -5,14 +5,14 @@
 namespace milepost {
 namespace {
 
-constexpr std::size_t kMostParticles = 1500;  // more would hide each other
+constexpr std::size_t kMostParticles = 1500;  // more would overlap
 constexpr std::size_t kMostSampled = 64;
 
-FindSnapshot snapshot_of(std::size_t frame, const ParticleCloud& cloud) {
+FindSnapshot snapshot_of(std::size_t frame, const ParticleSet& particles) {
   FindSnapshot snapshot{frame, {}};
   Random random(frame);
   for (const Particle& particle :
-       resampled(cloud, std::min(cloud.size(), kMostParticles), random)) {
+       resampled(particles, std::min(particles.size(), kMostParticles), random)) {
     snapshot.particles.push_back(particle.pose);
   }
   return snapshot;
@@ -20,18 +20,19 @@ FindSnapshot snapshot_of(std::size_t frame, const ParticleCloud& cloud) {
 
 }  // namespace
 
-void FindRecorder::observe(std::size_t frame, FindStatus status, const Finder& finder) {
+void FindRecorder::observe(std::size_t frame, GlobalStatus status,
+                           const GlobalLocalizer& localizer) {
   if (walls_.empty()) {
-    origin_ = finder.origin();
-    walls_ = finder.walls().walls();
+    origin_ = localizer.origin();
+    walls_ = localizer.walls().walls();
   }
-  latest_ = snapshot_of(frame, finder.particles());
+  latest_ = snapshot_of(frame, localizer.particles());
   if (!found_ && is_tracked(status)) found_ = latest_;
-  if (!lost_ && status == FindStatus::lost) lost_ = latest_;
+  if (!lost_ && status == GlobalStatus::lost) lost_ = latest_;
   if (frame % stride_ == 0) sample(latest_);
 }
 
-// Every second one is dropped when there are too many; the first frame's stays.
+// Drops every second snapshot when there are too many; the first frame's stays.
 void FindRecorder::sample(const FindSnapshot& snapshot) {
   sampled_.emplace(snapshot.frame, snapshot);
   if (sampled_.size() <= kMostSampled) return;

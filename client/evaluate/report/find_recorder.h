@@ -1,4 +1,5 @@
-// What a report shows of a finder's inside: the walls, and its particles at a few times.
+// Records the internal state of a global localizer for a report: the walls, and the particles at
+// some times.
 #pragma once
 
 #include <map>
@@ -10,24 +11,25 @@ namespace milepost {
 
 struct FindSnapshot {
   std::size_t frame = 0;
-  // Drawn from the belief, so that there are more where more of it lies; in the recorder's frame.
-  std::vector<PlanPose> particles;
+  // Resampled from the belief, so that their density shows the probability; in the tangent frame at
+  // origin().
+  std::vector<Pose2> particles;
 };
 
-// Looks on while a drive is played. A drive's length and when it is found are not known before, so
-// more snapshots are kept than are shown, but never more than a few dozen.
+// Observes a replay. The length of the drive and the time of convergence are not known in advance,
+// so more snapshots are kept than are shown, but never more than a few dozen.
 class FindRecorder {
  public:
-  // To be called after each frame, in their order.
-  void observe(std::size_t frame, FindStatus status, const Finder& finder);
+  // To be called after each frame, in order.
+  void observe(std::size_t frame, GlobalStatus status, const GlobalLocalizer& localizer);
 
-  // What the finder looked in; empty before the first frame.
+  // The origin of the tangent frame and the walls; empty before the first frame.
   const GeoPoint& origin() const { return origin_; }
   const std::vector<PlanWall>& walls() const { return walls_; }
 
-  // At most so many, ascending: at the start, half-way to where the vehicle was found, when it was,
-  // when it was lost for the first time, at the end, and at even times for the rest.
-  // REQUIRES: most > 4.
+  // At most `most` snapshots in order of time: at the start, half-way to convergence, at
+  // convergence, at the first loss, at the end, and at even intervals for the rest. REQUIRES: most
+  // > 4.
   std::vector<FindSnapshot> chosen(std::size_t most) const;
 
  private:
@@ -35,7 +37,7 @@ class FindRecorder {
 
   GeoPoint origin_;
   std::vector<PlanWall> walls_;
-  std::map<std::size_t, FindSnapshot> sampled_;  // each stride_ frames
+  std::map<std::size_t, FindSnapshot> sampled_;  // every stride_ frames
   std::size_t stride_ = 1;
   std::optional<FindSnapshot> found_;
   std::optional<FindSnapshot> lost_;

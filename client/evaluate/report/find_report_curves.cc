@@ -1,4 +1,4 @@
-// Curves of the report of a found drive: errors and belief over time.
+// Curves of a global localization report: errors and belief over time.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,16 +11,17 @@
 namespace milepost {
 namespace {
 
-constexpr std::array<FindStatus, 4> kStatuses = {FindStatus::initializing, FindStatus::tracking,
-                                                 FindStatus::predicted, FindStatus::lost};
-constexpr double kLeastError = 0.1;  // drawn to scale, in metres or degrees
+constexpr std::array<GlobalStatus, 4> kStatuses = {GlobalStatus::initializing,
+                                                   GlobalStatus::tracking, GlobalStatus::predicted,
+                                                   GlobalStatus::lost};
+constexpr double kLeastError = 0.1;  // lower end of the axis, in metres or degrees
 
-// A plot of frames without layers, with the status of each frame.
+// A plot over frames without layers, with the status of each frame.
 Json time_plot(const FoundSeries& series, const std::string& description, int height_px, Json y) {
   Json marks = Json::array();
   const std::vector<FoundFrame>& frames = *series.input->frames;
   for (std::size_t first = 0; first < frames.size();) {
-    const FindStatus status = frames[first].fix.status;
+    const GlobalStatus status = frames[first].fix.status;
     std::size_t end = first;
     while (end < frames.size() && frames[end].fix.status == status) ++end;
     const double to_s = series.time_s[std::min(end, frames.size() - 1)];
@@ -45,7 +46,7 @@ void add_found_line(Json& plot, const FoundSeries& series) {
                                        Json::array({top})));
 }
 
-// Whole powers of ten about the values.
+// A logarithmic axis between the powers of ten around the values.
 Json error_axis(const std::string& label, const std::vector<double>& values) {
   double low = 1;
   double high = 1;
@@ -60,7 +61,7 @@ Json error_axis(const std::string& label, const std::vector<double>& values) {
   return json;
 }
 
-// What is smaller than the axis reaches lies on its edge.
+// Values below the axis are drawn at its edge.
 Json on_axis(std::vector<double> values, const Json& y) {
   const double least = y["min"];
   for (double& value : values) {
@@ -83,7 +84,7 @@ Figure error_figure(const FoundSeries& series, const std::string& heading, const
   plot["layers"].push_back(line_layer("error", "m0", 1.8, "time_s", on_axis(errors, plot["y"])));
   add_found_line(plot, series);
   figure.plots.push_back(plot);
-  for (const FindStatus status : kStatuses) figure.keys.push_back(status_key(name_of(status)));
+  for (const GlobalStatus status : kStatuses) figure.keys.push_back(status_key(name_of(status)));
   return figure;
 }
 
@@ -94,8 +95,8 @@ std::vector<double> values_of(const FoundSeries& series, const Value& value) {
   return values;
 }
 
-Json told(const char* label, const char* column, const char* unit, int decimals,
-          bool is_signed = false) {
+Json value(const char* label, const char* column, const char* unit, int decimals,
+           bool is_signed = false) {
   return {{"label", label},
           {"column", column},
           {"unit", unit},
@@ -112,16 +113,16 @@ Json statuses_of(const FoundSeries& series) {
   return statuses;
 }
 
-Json told_of_frames() {
+Json frame_values() {
   Json words = Json::array();
-  for (const FindStatus status : kStatuses) words.push_back(name_of(status));
+  for (const GlobalStatus status : kStatuses) words.push_back(name_of(status));
   return Json::array({{{"label", "status"}, {"column", "status"}, {"words", words}},
-                      told("position error", "error_m", "m", 2),
-                      told("\u03C3", "sigma_m", "m", 2),
-                      told("heading error", "heading_error_deg", "\u00B0", 1, true),
-                      told("\u03C3", "heading_sigma_deg", "\u00B0", 1),
-                      told("mode probability", "mode_probability", "", 2),
-                      told("inlier ratio", "inlier_ratio", "", 2)});
+                      value("position error", "error_m", "m", 2),
+                      value("\u03C3", "sigma_m", "m", 2),
+                      value("heading error", "heading_error_deg", "\u00B0", 1, true),
+                      value("\u03C3", "heading_sigma_deg", "\u00B0", 1),
+                      value("mode probability", "mode_probability", "", 2),
+                      value("inlier ratio", "inlier_ratio", "", 2)});
 }
 
 }  // namespace
@@ -129,13 +130,13 @@ Json told_of_frames() {
 Figure position_error_figure(const FoundSeries& series) {
   std::vector<double> errors;
   for (const FindError& error : series.errors) errors.push_back(error.position_m);
-  Figure figure =
-      error_figure(series, "Position error over time", "error (m)", 260, errors,
-                   values_of(series, [](const FindFix& fix) { return 2 * fix.sigma_m; }));
+  Figure figure = error_figure(
+      series, "Position error over time", "error (m)", 260, errors,
+      values_of(series, [](const GlobalPoseEstimate& fix) { return 2 * fix.sigma_m; }));
   figure.caption =
-      "Distance from the recorded position, on a logarithmic scale, so that both the search and "
-      "the tracking can be read. In the grey the error is within twice the reported \u03C3, which "
-      "is that of the whole belief while nothing is found. The lane under the axis shows the "
+      "Distance from the recorded position, on a logarithmic scale that shows both the search and "
+      "the tracking. In the grey band the error is within twice the reported \u03C3; until the "
+      "vehicle is found this is the \u03C3 of the whole belief. The lane under the axis shows the "
       "status of each frame.";
   return figure;
 }
@@ -143,9 +144,9 @@ Figure position_error_figure(const FoundSeries& series) {
 Figure heading_error_figure(const FoundSeries& series) {
   std::vector<double> errors;
   for (const FindError& error : series.errors) errors.push_back(std::abs(error.heading_deg));
-  Figure figure =
-      error_figure(series, "Heading error over time", "error (\u00B0)", 180, errors,
-                   values_of(series, [](const FindFix& fix) { return 2 * fix.heading_sigma_deg; }));
+  Figure figure = error_figure(
+      series, "Heading error over time", "error (\u00B0)", 180, errors,
+      values_of(series, [](const GlobalPoseEstimate& fix) { return 2 * fix.heading_sigma_deg; }));
   figure.caption =
       "Absolute angle to the recorded heading; \u03C3 is that of the most probable mode.";
   return figure;
@@ -153,17 +154,17 @@ Figure heading_error_figure(const FoundSeries& series) {
 
 Figure belief_figure(const FoundSeries& series) {
   Figure figure;
-  figure.heading = "What the belief rests on";
+  figure.heading = "Mode probability and inlier ratio";
   figure.caption =
-      "Mode probability: the part of the belief that lies in its densest place. Inlier ratio: the "
-      "share of what was seen lately that the walls there explain. A vehicle counts as found when "
-      "both are high for some way, and as lost when one falls low.";
+      "Mode probability: the part of the belief in its densest mode. Inlier ratio: the share of "
+      "recent measurements that the walls explain at this mode. The vehicle counts as found when "
+      "both are high over some distance, and as lost when one of them becomes low.";
   Json plot = time_plot(series, figure.heading, 160, axis("share", 0, 1));
   plot["layers"].push_back(line_layer("inlier ratio", "m1", 1.1, "time_s", "inlier_ratio"));
   plot["layers"].push_back(line_layer("mode probability", "m0", 1.8, "time_s", "mode_probability"));
   add_found_line(plot, series);
   figure.plots.push_back(plot);
-  for (const FindStatus status : kStatuses) figure.keys.push_back(status_key(name_of(status)));
+  for (const GlobalStatus status : kStatuses) figure.keys.push_back(status_key(name_of(status)));
   return figure;
 }
 
@@ -176,7 +177,7 @@ void add_frames(Json& page, const FoundSeries& series) {
     errors_m.push_back(error.position_m);
     turns_deg.push_back(error.heading_deg);
   }
-  const auto column = [&](double (*value)(const FindFix&), int decimals) {
+  const auto column = [&](double (*value)(const GlobalPoseEstimate&), int decimals) {
     return rounded(values_of(series, value), decimals);
   };
   page["columns"] = {
@@ -186,11 +187,13 @@ void add_frames(Json& page, const FoundSeries& series) {
       {"north_m", norths(series.recorded)},
       {"status", statuses_of(series)},
       {"error_m", rounded(errors_m, 3)},
-      {"sigma_m", column([](const FindFix& fix) { return fix.sigma_m; }, 3)},
+      {"sigma_m", column([](const GlobalPoseEstimate& fix) { return fix.sigma_m; }, 3)},
       {"heading_error_deg", rounded(turns_deg, 2)},
-      {"heading_sigma_deg", column([](const FindFix& fix) { return fix.heading_sigma_deg; }, 2)},
-      {"mode_probability", column([](const FindFix& fix) { return fix.mass; }, 3)},
-      {"inlier_ratio", column([](const FindFix& fix) { return fix.explained; }, 3)}};
+      {"heading_sigma_deg",
+       column([](const GlobalPoseEstimate& fix) { return fix.heading_sigma_deg; }, 2)},
+      {"mode_probability",
+       column([](const GlobalPoseEstimate& fix) { return fix.mode_probability; }, 3)},
+      {"inlier_ratio", column([](const GlobalPoseEstimate& fix) { return fix.inlier_ratio; }, 3)}};
   page["frames"] = {
       {"x", "time_s"},
       {"names", "frame"},
@@ -199,7 +202,7 @@ void add_frames(Json& page, const FoundSeries& series) {
       {"label", "time"},
       {"unit", "s"},
       {"decimals", 1},
-      {"rows", Json::array({{{"name", "found"}, {"colour", "m0"}, {"values", told_of_frames()}}})}};
+      {"rows", Json::array({{{"name", "found"}, {"colour", "m0"}, {"values", frame_values()}}})}};
 }
 
 }  // namespace milepost

@@ -13,8 +13,8 @@ constexpr std::size_t kMostSnapshots = 6;
 
 std::string wrong_places(const FindSummary& summary) {
   if (summary.wrong_frames == 0) return "";
-  return " In " + counted(summary.wrong_frames, "frame") +
-         " it was taken to be in a wrong place, more than " + number(kWrongPlaceM, 0) + " m off.";
+  return " In " + counted(summary.wrong_frames, "frame") + " the position was wrong by more than " +
+         number(kWrongPlaceM, 0) + " m.";
 }
 
 std::string lead(const FindSummary& summary) {
@@ -26,8 +26,8 @@ std::string lead(const FindSummary& summary) {
                      counted(summary.frames, "frame") + ".";
   if (std::isnan(summary.position_m.p50)) return text;
   return text + " Half of these are within " + metres(summary.position_m.p50) +
-         " of where the camera really was, 95\u00A0% within " + metres(summary.position_m.p95) +
-         "; the worst is off by " + metres(summary.position_m.max) + "." + wrong_places(summary);
+         " of the recorded position, 95\u00A0% within " + metres(summary.position_m.p95) +
+         "; the largest error is " + metres(summary.position_m.max) + "." + wrong_places(summary);
 }
 
 Facts facts_of(const FindReportInput& input, const FindSummary& summary) {
@@ -46,13 +46,11 @@ Facts facts_of(const FindReportInput& input, const FindSummary& summary) {
 }
 
 constexpr const char* kSummaryNote =
-    "Of the frames that count as found: tracking, or carried on by odometry. Position: distance "
-    "along "
-    "the ground from the recorded position. Heading: absolute angle to the recorded one. Within "
-    "2\u03C3: the share that lies inside twice the reported standard deviation; of honest ones "
-    "86.5\u00A0% of the positions, which have two directions to be off in, and 95.4\u00A0% of the "
-    "headings. Only this report looks at recorded positions: the vehicle was found by frames and "
-    "odometry alone.";
+    "Over the frames with the status tracking or predicted. Position: horizontal distance from the "
+    "recorded position. Heading: absolute angle to the recorded one. Within 2\u03C3: the share of "
+    "errors within twice the reported standard deviation; for a consistent estimate 86.5\u00A0% of "
+    "the positions (in two dimensions) and 95.4\u00A0% of the headings. Only this report uses "
+    "recorded positions: the vehicle was localized by frames and odometry alone.";
 
 Json row(const std::string& name, const FindErrorFigures& figures) {
   return {{"cells",
@@ -77,7 +75,7 @@ Json snapshots_part(const FoundSeries& series) {
   Json parts = Json::array();
   for (const Figure& figure : snapshot_figures(series)) parts.push_back(json_of(figure));
   return {{"part", "group"},
-          {"heading", "The belief as it went"},
+          {"heading", "The belief over time"},
           {"keys", plan_keys()},
           {"parts", parts}};
 }
@@ -93,7 +91,7 @@ FoundSeries found_series(const FindReportInput& input) {
   const LocalFrame frame(input.recorder->origin());
   const double start_s = input.frames->front().fix.timestamp_s;
   for (std::size_t i = 0; i < input.frames->size(); ++i) {
-    const FindFix& fix = (*input.frames)[i].fix;
+    const GlobalPoseEstimate& fix = (*input.frames)[i].fix;
     series.time_s.push_back(fix.timestamp_s - start_s);
     series.recorded.push_back(on_plan(frame, input.drive->frames[i].position));
     series.found.push_back(on_plan(frame, fix.position));

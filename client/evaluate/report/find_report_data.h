@@ -1,4 +1,4 @@
-// The report of a found drive, as data (report_json.h).
+// The report of a global localization run as data (report_json.h).
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@ struct FindReportInput {
   std::string settings;    // of the filter, for the heading
   const Drive* drive = nullptr;
   const std::vector<FoundFrame>* frames = nullptr;  // those of the drive, in its order
-  const FindRecorder* recorder = nullptr;           // that looked on
-  std::optional<Backdrop> backdrop;                 // none: the plans have a plain ground
+  const FindRecorder* recorder = nullptr;           // that observed the run
+  std::optional<Backdrop> backdrop;                 // none: the plans have a plain background
 };
 
-// What report_page() makes a page of. The same input gives the same data. Of all that the project
-// computes about a found drive, only this looks at its recorded positions.
-// REQUIRES: no pointer is null; there is a frame.
+// The input of report_page(). Deterministic. Nothing else in the project uses the recorded
+// positions of a global localization run. REQUIRES: no pointer is null; there is at least one
+// frame.
 Json find_report_data(const FindReportInput& input);
 
 }  // namespace milepost

@@ -1,4 +1,4 @@
-// Plans of the report of a found drive: the belief at several times, and the whole path.
+// Plans of a global localization report: the belief at several times, and the whole path.
 #include <sodium.h>
 
 #include <array>
@@ -13,13 +13,12 @@
 namespace milepost {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr PlanPoint kGap = {kNaN, kNaN};
 constexpr std::size_t kMostDots = 600;
 
-// How the path's dots show a status, in the order in which they are drawn, the first beneath.
+// The dots of each status on the path, in drawing order, the lowest first.
 struct StatusDot {
-  FindStatus status;
+  GlobalStatus status;
   const char* colour;
   const char* fill;
   double radius_px;
@@ -27,13 +26,13 @@ struct StatusDot {
 };
 
 constexpr std::array<StatusDot, 4> kStatusDots = {{
-    {FindStatus::initializing, "muted", "page", 2.0, 1.2},
-    {FindStatus::lost, "page", "e5", 3.2, 0.8},
-    {FindStatus::predicted, "m0", "page", 2.6, 1.5},
-    {FindStatus::tracking, "page", "m0", 2.6, 0.8},
+    {GlobalStatus::initializing, "muted", "page", 2.0, 1.2},
+    {GlobalStatus::lost, "page", "e5", 3.2, 0.8},
+    {GlobalStatus::predicted, "m0", "page", 2.6, 1.5},
+    {GlobalStatus::tracking, "page", "m0", 2.6, 0.8},
 }};
 
-// What a layer shows; it has no name, for a legend names it.
+// Adds points to a layer.
 Json with_points(Json layer, const std::vector<PlanPoint>& points) {
   layer["x"] = easts(points);
   layer["y"] = norths(points);
@@ -45,22 +44,22 @@ Json cased(Json layer) {
   return layer;
 }
 
-Json particle_look() { return dots_layer("particle, with its heading", "particle", 1.5); }
+Json particle_look() { return dots_layer("particle with its heading", "particle", 1.5); }
 Json recorded_look() { return line_layer("recorded path so far", "m2", 2.2); }
-Json here_look() { return circles_layer("where it really is", "m2", "clear", 5, 2.5); }
+Json here_look() { return circles_layer("recorded position", "m2", "clear", 5, 2.5); }
 Json tracked_look() { return line_layer("tracked path so far", "m0", 1.8); }
 Json estimate_look() {
-  return circles_layer("densest place, with its heading and, while tracked, 2\u03C3", "page", "m0",
-                       3, 0.8);
+  return circles_layer("densest mode with its heading and, while tracked, 2\u03C3", "page", "m0", 3,
+                       0.8);
 }
 
 Json walls() { return line_layer("wall", "wall", 1.4, "wall_east_m", "wall_north_m"); }
 
-// Dots, and a stroke from each to where it heads.
+// Draws a dot per particle and a stroke in the direction of its heading.
 void add_particles(Json& layers, const FindSnapshot& snapshot, const PlanArea& area) {
   std::vector<PlanPoint> places;
   Json rotations_deg = Json::array();
-  for (const PlanPose& pose : snapshot.particles) {
+  for (const Pose2& pose : snapshot.particles) {
     const PlanPoint place = {pose.enu_m.x(), pose.enu_m.y()};
     if (!area.contains(place)) continue;
     const Eigen::Vector2d way = direction_of(pose.heading_rad);
@@ -76,8 +75,9 @@ void add_particles(Json& layers, const FindSnapshot& snapshot, const PlanArea& a
   layers.push_back(with_points(particle_look(), places));
 }
 
-// The densest place with its heading, and while tracked a circle of two sigmas.
-void add_estimate(Json& layers, const PlanPoint& at, const FindFix& fix, const PlanArea& area) {
+// The densest mode with its heading, and while tracked a circle of two sigmas.
+void add_estimate(Json& layers, const PlanPoint& at, const GlobalPoseEstimate& fix,
+                  const PlanArea& area) {
   const Eigen::Vector2d way =
       0.06 * area.east.length() * direction_of(fix.heading_deg * kRadPerDeg);
   layers.push_back(cased(with_points(tracked_look(), {at, {at.x + way.x(), at.y + way.y()}})));
@@ -94,7 +94,7 @@ std::vector<PlanPoint> until(const std::vector<PlanPoint>& path, std::size_t fra
   return {path.begin(), path.begin() + static_cast<std::ptrdiff_t>(frame) + 1};
 }
 
-// Gaps where the vehicle was not tracked.
+// The tracked path, with gaps where the vehicle was not tracked.
 std::vector<PlanPoint> tracked_path(const FoundSeries& series) {
   std::vector<PlanPoint> path = series.found;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -113,11 +113,12 @@ std::string moment_of(const FoundSeries& series, std::size_t frame) {
 }
 
 std::string snapshot_caption(const FoundSeries& series, std::size_t frame, bool is_close_up) {
-  const FindFix& fix = (*series.input->frames)[frame].fix;
+  const GlobalPoseEstimate& fix = (*series.input->frames)[frame].fix;
   const double error_m = series.errors[frame].position_m;
   std::string text = std::string(is_close_up ? "Close-up" : "The whole area") + "; status " +
                      name_of(fix.status) + ", \u03C3 " + metres(fix.sigma_m) + ", " +
-                     number(100 * fix.mass, 0) + "\u00A0% of the belief in the densest place.";
+                     number(100 * fix.mode_probability, 0) +
+                     "\u00A0% of the belief in the densest mode.";
   if (std::isfinite(error_m)) text += " Off by " + metres(error_m) + ".";
   return text;
 }
@@ -178,8 +179,8 @@ std::string base64_of(ByteView bytes) {
   return text;
 }
 
-// The picture's two sides are straight and even in metres, as far as a plan reaches: to the right,
-// downwards, and where they meet, each east and north.
+// The image as an affine transformation to metres: its two sides, to the right and downwards, and
+// its origin, each as east and north. Exact enough within the extent of a plan.
 Json json_of(const PagePicture& picture, const LocalFrame& frame) {
   const PlanPoint origin = on_plan(frame, picture.top_left);
   const PlanPoint right = on_plan(frame, picture.top_right);
@@ -209,11 +210,11 @@ Figure path_figure(const FoundSeries& series) {
   figure.heading = "The whole path";
   const std::size_t stride = dot_stride(series);
   figure.caption =
-      "Metres east and north, to scale. Each dot is where the belief was densest in a frame" +
+      "Metres east and north, to scale. Each dot is the densest mode of a frame" +
       (stride > 1 ? ", one of " + std::to_string(stride) + " frames" : std::string()) +
-      "; the line is where the camera really was. While nothing is found the densest place jumps. "
-      "Numbers are those of the snapshots.";
-  Json plot = plan_plot(path_area(series), "The recorded path and what was found in plan view");
+      "; the line is the recorded path. Until the vehicle is found the densest mode jumps. The "
+      "numbers are those of the snapshots.";
+  Json plot = plan_plot(path_area(series), "The recorded path and the estimates in plan view");
   Json& layers = plot["layers"];
   layers.push_back(walls());
   Json recorded = cased(line_layer("recorded path", "m2", 2.2, "east_m", "north_m"));

@@ -12,11 +12,11 @@ namespace {
 
 std::string lateral_lead(const Summary& summary) {
   if (!summary.knows_lateral()) return "";
-  return " Its lateral offset is off by " + metres(summary.lateral_error_m.mean) +
-         " in the mean, 95\u00A0% by at most " + metres(summary.lateral_error_m.p95) + ".";
+  return " The mean error of its lateral offset is " + metres(summary.lateral_error_m.mean) +
+         ", 95\u00A0% are within " + metres(summary.lateral_error_m.p95) + ".";
 }
 
-// What the best known method did, in a sentence or two.
+// The result of the reference method in one or two sentences.
 std::string lead(const ReportSeries& series) {
   if (series.methods.empty()) return "No method was evaluated.";
   const Summary& summary = series.reference_method().evaluation->summary;
@@ -25,8 +25,8 @@ std::string lead(const ReportSeries& series) {
   }
   return summary.method + " placed " + std::to_string(summary.localized_frames) + " of " +
          counted(summary.frames, "frame") + " on the map. Half of them are within " +
-         metres(summary.p50_error_m) + " of where the camera really was, 95\u00A0% within " +
-         metres(summary.p95_error_m) + "; the worst is off by " + metres(summary.max_error_m) +
+         metres(summary.p50_error_m) + " of the recorded position, 95\u00A0% within " +
+         metres(summary.p95_error_m) + "; the largest error is " + metres(summary.max_error_m) +
          "." + lateral_lead(summary);
 }
 
@@ -48,18 +48,16 @@ PageHead head(const ReportInput& input, const ReportSeries& series) {
 
 constexpr const char* kSummaryNote =
     "Errors are absolute differences of the arc lengths of fix and truth, over the localized "
-    "frames: those with a position on the map. Within 2\u03C3: the share of them that lies inside "
-    "twice the reported standard deviation. Map: what the vehicle holds for the method on each "
-    "metre of road. p50 and p95: half and 95\u00A0% are no larger.";
+    "frames: those with a position on the map. Within 2\u03C3: the share of them within twice the "
+    "reported standard deviation. Map: the data that the vehicle holds for the method per metre of "
+    "road. p50 and p95: the median and the 95th percentile.";
 constexpr const char* kBestNote =
     " The best of each column is underlined; within 2\u03C3 that is the nearest to 95.4\u00A0%.";
 constexpr const char* kPoseNote =
-    "Of the methods that know where in the lane the camera is and where it looks. Lateral: "
-    "absolute "
-    "difference of the lateral offsets of fix and truth from the segment's line. Heading: absolute "
-    "angle between the two. Within 2\u03C3: the share inside twice the reported standard deviation "
-    "of "
-    "the lateral offset.";
+    "Of the methods that estimate lateral offset and heading. Lateral: absolute difference of the "
+    "lateral offsets of fix and truth from the segment's line. Heading: absolute angle between the "
+    "two. Within 2\u03C3: the share within twice the reported standard deviation of the lateral "
+    "offset.";
 
 Json table_part(const std::string& heading, const std::string& note, const Json& table) {
   Json part = {{"part", "table"}, {"heading", heading}, {"note", note}};

@@ -1,4 +1,4 @@
-// The report of an evaluation, as data (report_json.h).
+// The report of an evaluation as data (report_json.h).
 #pragma once
 
 #include <string>
@@ -17,10 +17,10 @@ struct ReportInput {
   std::vector<GeoPoint> segment_line;  // of the segment driven longest; may be empty
   std::string segment;
   double segment_length_m = 0;
-  std::vector<MethodEvaluation> methods;  // the same drive by one method or more
+  std::vector<MethodEvaluation> methods;  // of the same drive, one or more
 };
 
-// What report_page() makes a page of. The same input gives the same data.
+// The input of report_page(). Deterministic.
 Json report_data(const ReportInput& input);
 
 }  // namespace milepost

@@ -1,15 +1,14 @@
-// The columns of the page: what each method said of each frame.
+// The columns of the page: the result of each method for each frame.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "client/evaluate/report/report_figures.h"
+#include "client/evaluate/report/report_numbers.h"
 
 namespace milepost {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<FixStatus, 5> kStatuses = {FixStatus::initializing, FixStatus::tracking,
                                                 FixStatus::predicted, FixStatus::lost,
@@ -21,7 +20,7 @@ struct Values {
   const char* unit;
   int decimals;
   bool is_signed;
-  bool is_of_pose;  // known by methods that know the lateral offset
+  bool is_of_pose;  // known to methods that estimate the lateral offset
   double (*value)(const EvaluatedFix&);
 };
 
@@ -64,7 +63,7 @@ Json status_words() {
   return words;
 }
 
-// Names come from the method with the most frames.
+// The names come from the method with the most frames.
 Json names_of(const ReportSeries& series) {
   const MethodEvaluation* longest = series.methods.front().evaluation;
   for (const MethodSeries& method : series.methods) {
@@ -75,22 +74,22 @@ Json names_of(const ReportSeries& series) {
   return names;
 }
 
-// What is told of a frame: the values of each method, and its status.
+// The readout of a frame: the values of each method and its status.
 Json rows_of(const ReportSeries& series) {
   Json rows = Json::array();
   for (const MethodSeries& method : series.methods) {
-    Json told = Json::array();
+    Json readout = Json::array();
     for (const Values& values : kValues) {
       if (values.is_of_pose && !series.knows_lateral()) continue;
-      told.push_back({{"label", values.label},
-                      {"column", method.column(values.name)},
-                      {"unit", values.unit},
-                      {"decimals", std::min(values.decimals, 3)},
-                      {"signed", values.is_signed}});
+      readout.push_back({{"label", values.label},
+                         {"column", method.column(values.name)},
+                         {"unit", values.unit},
+                         {"decimals", std::min(values.decimals, 3)},
+                         {"signed", values.is_signed}});
     }
-    told.push_back(
+    readout.push_back(
         {{"label", "status"}, {"column", method.column("status")}, {"words", status_words()}});
-    rows.push_back({{"name", method.name}, {"colour", method.colour}, {"values", told}});
+    rows.push_back({{"name", method.name}, {"colour", method.colour}, {"values", readout}});
   }
   return rows;
 }

@@ -1,5 +1,5 @@
-// Layers of plots: how they look, and where they lie. An empty name is not in the legend; x and y
-// are arrays, or names of the page's columns. More can be set on what is returned.
+// Layers of plots with their style and data. A layer without a name is not in the legend; x and y
+// are arrays, or names of the page's columns. More properties can be set on the result.
 #pragma once
 
 #include <string>
@@ -15,19 +15,19 @@ Json dots_layer(const std::string& name, const std::string& colour, double radiu
 // Circles with an edge.
 Json circles_layer(const std::string& name, const std::string& edge, const std::string& fill,
                    double radius_px, double edge_px, Json x = {}, Json y = {});
-// What lies beneath a line, or between it and the same below zero (kind band).
+// The area below a line, or between it and its mirror image at zero (kind band).
 Json area_layer(const std::string& name, const std::string& colour, Json x, Json y);
 
 struct Words {
-  const char* align = "left";  // of the point: left, center, right
+  const char* align = "left";  // horizontal, relative to the point: left, center, right
   int right_px = 0;
   int down_px = 0;
 };
 
-// A text beside each point.
+// A text next to each point.
 Json texts_layer(const Json& text, const Words& words, Json x, Json y);
 
-// An entry of a legend that tells how a status is marked.
+// A legend entry for the mark of a status.
 Json status_key(const std::string& status);
 
 }  // namespace milepost

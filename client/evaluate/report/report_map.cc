@@ -7,15 +7,15 @@
 
 #include "client/evaluate/report/report_figures.h"
 #include "client/evaluate/report/report_layers.h"
+#include "client/evaluate/report/report_numbers.h"
 #include "client/evaluate/report/report_plan.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDecimetre = 0.1;
 
-// Classes of the absolute error. Dots grow with the error, so that colour is not alone to tell.
+// Classes of the absolute error. The dots also grow with the error, to be readable without colour.
 struct ErrorClass {
   double up_to_m;
   const char* words;
@@ -41,8 +41,8 @@ std::size_t class_of(double error_m) {
 
 struct PlanView {
   std::vector<PlanPoint> line;   // of the segment
-  std::vector<PlanPoint> path;   // of the query, one a frame
-  std::vector<PlanPoint> fixes;  // of the reference method, one a fix
+  std::vector<PlanPoint> path;   // of the query, one per frame
+  std::vector<PlanPoint> fixes;  // of the reference method, one per fix
 };
 
 std::optional<GeoPoint> origin_of(const ReportInput& input) {
@@ -73,8 +73,8 @@ PlanView plan_view(const ReportInput& input, const ReportSeries& series, const G
   return plan;
 }
 
-// Around what was driven. Of the segment's line only the part near it is shown: a long segment
-// driven in part would leave the drive as a speck.
+// The area around the drive. Only the part of the segment's line near it is shown: otherwise a
+// short drive on a long segment would be tiny.
 PlanArea area_of(const PlanView& plan) {
   constexpr double kLeastWidthM = 10;
   constexpr double kLeastHeightShare = 0.3;
@@ -91,7 +91,7 @@ PlanArea area_of(const PlanView& plan) {
   return area;
 }
 
-// The worst on top, where they cannot be missed.
+// The largest errors are drawn on top.
 void add_fixes(Json& layers, const PlanView& plan, const MethodSeries& method) {
   for (std::size_t k = 0; k < kErrorClasses.size(); ++k) {
     std::vector<PlanPoint> points;
@@ -119,7 +119,7 @@ void add_ends(Json& layers, const std::vector<PlanPoint>& path) {
   const auto start = std::find_if(path.begin(), path.end(), is_drawn);
   const auto end = std::find_if(path.rbegin(), path.rend(), is_drawn);
   if (start == path.end()) return;
-  // Away from the path, which lies on the other side of each end's name.
+  // The labels are placed away from the path.
   const bool heads_north = end->y >= start->y;
   const auto add = [&](const PlanPoint& at, const char* word, bool is_below) {
     const Json x = easts({at});
@@ -133,14 +133,13 @@ void add_ends(Json& layers, const std::vector<PlanPoint>& path) {
 
 std::string map_caption(const MethodSeries& method) {
   std::string text = "Metres east and north, to scale. Each dot is a fix of " + method.name +
-                     " on the segment's line, the larger the farther off; the thin line is where "
-                     "the camera really was.";
+                     "; larger dots have larger errors. The thin line is the recorded path.";
   const std::vector<double>& errors_m = method.localized_errors_m;
   if (errors_m.empty()) return text;
   const auto near = std::count_if(errors_m.begin(), errors_m.end(),
                                   [](double error_m) { return std::abs(error_m) <= kDecimetre; });
   return text + " " + std::to_string(near) + " of " + std::to_string(errors_m.size()) +
-         " errors are at most a decimetre.";
+         " errors are at most 0.1 m.";
 }
 
 }  // namespace

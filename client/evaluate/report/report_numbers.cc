@@ -9,8 +9,8 @@
 namespace milepost {
 namespace {
 
-constexpr double kHeadroom = 1.05;  // so that the greatest value is not half outside the plot
-constexpr double kRounding = 1e-9;  // of a step: a length that is one is not longer than one
+constexpr double kHeadroom = 1.05;  // keeps the mark of the largest value inside the plot
+constexpr double kRounding = 1e-9;  // tolerance of rounding errors in a step
 
 }  // namespace
 
@@ -29,7 +29,7 @@ std::string signed_number(double value, int decimals) {
 }
 
 std::string metres(double value) {
-  // Decimals follow the number as it is printed: 0.0996 is 0.10.
+  // The decimals depend on the printed number: 0.0996 is 0.10.
   return number(value, std::abs(value) < 0.0995 ? 3 : 2) + "\u00A0m";
 }
 

@@ -16,7 +16,7 @@ bool begins_report(std::string_view head) {
          head.find(" \u2013 milepost ") != std::string_view::npos;
 }
 
-// As a content security policy names a script that may run.
+// The source expression of a script in a content security policy.
 std::string script_hash(std::string_view script) {
   std::array<unsigned char, crypto_hash_sha256_BYTES> hash{};
   crypto_hash_sha256(hash.data(), reinterpret_cast<const unsigned char*>(script.data()),
@@ -57,7 +57,8 @@ std::string report_page(const Json& data) {
       {"@LIBRARY@", std::string(files.library)},
       {"@SCRIPT@", std::string(files.script)},
   }};
-  // The template has each once, in this order; what is put in is not looked at again.
+  // The template contains each placeholder once, in this order; inserted text is not searched
+  // again.
   std::string page;
   std::string_view rest = files.page;
   for (const auto& [name, text] : parts) {

@@ -1,4 +1,4 @@
-// A report's data as a page that needs nothing else.
+// A report as a self-contained HTML page.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace milepost {
 
-// A page of any kind, also of an older version.
+// A report page of any kind or version.
 extern const OutputKind kReportOutput;
 
-// The whole document, UTF-8: the template, style sheet, scripts and charting library of the
-// program, and the data. Whatever texts the data holds, nothing of them is markup or runs: they
-// stand in one JSON text without '<', and the page lets only its own scripts run and loads nothing.
-// Bytes that are not UTF-8 become U+FFFD.
+// The whole document in UTF-8: template, style sheet, scripts, charting library and data. Strings
+// in the data cannot become markup or code: the data is one JSON text without '<', and the page's
+// content security policy allows only its own scripts and no loading. Bytes that are not UTF-8
+// become U+FFFD.
 std::string report_page(const Json& data);
 
 }  // namespace milepost

@@ -1,4 +1,4 @@
-// The files that a report's page is made from, as they were when the program was built.
+// The files of a report page, embedded when the program was built.
 #pragma once
 
 #include <string_view>

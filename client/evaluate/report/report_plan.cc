@@ -15,7 +15,7 @@ PlanPoint on_plan(const LocalFrame& frame, const GeoPoint& point) {
   return {enu.east_m, enu.north_m};
 }
 
-void Extent::include(double value) {  // fmin and fmax pass over NaN
+void Extent::include(double value) {  // fmin and fmax ignore NaN
   from = std::fmin(from, value);
   to = std::fmax(to, value);
 }

@@ -1,4 +1,4 @@
-// What the reports' plan views share: the area that is shown, and the plot of it.
+// Common parts of the reports' plan views: the area shown and its plot.
 #pragma once
 
 #include <limits>
@@ -16,10 +16,10 @@ struct PlanPoint {
   double y = 0;
 };
 
-// Of the frame's origin; NaN where the position is not valid.
+// The point relative to the frame's origin; NaN if the position is not valid.
 PlanPoint on_plan(const LocalFrame& frame, const GeoPoint& point);
 
-// From the least to the greatest of the values that were included; NaN before the first.
+// The range of the included values; NaN before the first.
 struct Extent {
   double from = std::numeric_limits<double>::quiet_NaN();
   double to = std::numeric_limits<double>::quiet_NaN();
@@ -39,8 +39,8 @@ struct PlanArea {
   bool contains(const PlanPoint& point) const;  // borders included
 };
 
-// A plot of the area, to scale, without layers: {plan, description, x, y, layers}.
-// REQUIRES: the area is not empty.
+// A plot of the area, to scale, without layers: {plan, description, x, y, layers}. REQUIRES: the
+// area is not empty.
 Json plan_plot(const PlanArea& area, const std::string& description);
 
 // East and north of each point, in metres to the millimetre, for a layer's x and y.

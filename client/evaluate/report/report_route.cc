@@ -1,4 +1,4 @@
-// What happened along the route: errors, matches and latency, frame by frame.
+// Figures along the route: errors, matches and latency, frame by frame.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,10 +12,9 @@
 namespace milepost {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kMostInLine = 600;  // points; a line through more is one thick smear
+constexpr int kMostInLine = 600;  // points; a line through more is not readable
 
-// Tracking is the rule and has no mark.
+// Tracking is the normal case and has no mark.
 constexpr std::array<FixStatus, 4> kMarked = {FixStatus::initializing, FixStatus::predicted,
                                               FixStatus::lost, FixStatus::off_map};
 
@@ -23,12 +22,12 @@ bool is_marked(FixStatus status) {
   return std::find(kMarked.begin(), kMarked.end(), status) != kMarked.end();
 }
 
-// Signed errors that are drawn along the route, and the sigma that a fix claims for them.
+// A kind of signed errors along the route, and the reported sigma.
 struct ErrorKind {
   std::vector<double> MethodSeries::*error_m;
   const char* error_column;
   const char* sigma_column;
-  double (*sigma_m)(const Fix&);  // NaN where none is claimed
+  double (*sigma_m)(const Fix&);  // NaN if none is reported
 };
 
 constexpr ErrorKind kAlong = {&MethodSeries::error_m, "error_m", "sigma_m",
@@ -45,7 +44,7 @@ std::vector<double> two_sigmas_m(const MethodSeries& method, const ErrorKind& ki
   return values;
 }
 
-// A plot of frames without layers.
+// A plot over frames without layers.
 Json route_plot(const ReportSeries& series, const std::string& description, int height_px,
                 const Json& y) {
   Json x = axis(series.route_label + " (m)", series.route_from_m, series.route_to_m);
@@ -57,7 +56,7 @@ Json route_plot(const ReportSeries& series, const std::string& description, int 
           {"y", y},         {"layers", Json::array()}};
 }
 
-// A line, where it is not too dense, with a dot a frame.
+// A line, unless it would be too dense, with a dot per frame.
 void add_values(Json& plot, const MethodSeries& method, const char* column, bool is_reference) {
   const std::string y = method.column(column);
   Json line = line_layer(method.name, method.colour, is_reference ? 1.8 : 1.1, "route_m", y);
@@ -75,7 +74,7 @@ std::string unplaced_text(const ReportSeries& series) {
   return " Not drawn: " + counted(unplaced, "frame") + " without a true position.";
 }
 
-// A lane a method; in it each stretch of frames with one status: [from, to, status].
+// One lane per method with each run of frames of one status: [from, to, status].
 Json status_lanes(const ReportSeries& series) {
   Json lanes = Json::array();
   for (const MethodSeries& method : series.methods) {
@@ -129,8 +128,8 @@ std::string beyond_text(const ReportSeries& series, const ErrorKind& kind, doubl
 
 std::string band_text(const MethodSeries& reference, double within_2_sigma) {
   return "The grey band is twice the standard deviation that " + reference.name +
-         " itself reports: " + number(100 * within_2_sigma, 1) +
-         "\u00A0% of its errors lie inside; an honest one holds 95\u00A0%. ";
+         " reports: " + number(100 * within_2_sigma, 1) +
+         "\u00A0% of its errors lie inside; for a consistent estimate 95\u00A0% do. ";
 }
 
 std::string error_caption(const ReportSeries& series, double limit_m) {
@@ -150,11 +149,11 @@ std::string lateral_caption(const ReportSeries& series, double limit_m) {
   if (std::isfinite(reference.evaluation->summary.lateral_within_2_sigma)) {
     text += band_text(reference, reference.evaluation->summary.lateral_within_2_sigma);
   }
-  return text + "Methods that know no lateral offset are left out." +
+  return text + "Methods that do not estimate a lateral offset are omitted." +
          beyond_text(series, kLateral, limit_m);
 }
 
-// Errors of all methods over the band of the reference method.
+// The errors of all methods over the band of the reference method.
 void add_errors(Json& plot, const ReportSeries& series, const ErrorKind& kind) {
   for (const MethodSeries* method : series.back_to_front()) {
     const bool is_reference = method == &series.reference_method();
@@ -187,7 +186,7 @@ struct ValueKind {
   FrameValue value;
 };
 
-// A line a method, from zero up.
+// One line per method, from zero up.
 Figure value_figure(const ReportSeries& series, const ValueKind& kind) {
   Figure figure;
   figure.heading = kind.heading;
@@ -205,7 +204,7 @@ Figure value_figure(const ReportSeries& series, const ValueKind& kind) {
   return figure;
 }
 
-// Without the methods that compare whole images and match nothing; the reference method stays.
+// Without the methods that compare whole images and have no matches; the reference method stays.
 ReportSeries matching_methods(const ReportSeries& all) {
   return only(all, [&](const MethodSeries& method) {
     const auto& fixes = method.evaluation->fixes;
@@ -254,8 +253,8 @@ Figure matches_figure(const ReportSeries& series) {
   std::vector<double> matches = values_of(reference, matches_of);
   std::sort(matches.begin(), matches.end());
   figure.caption =
-      "How many tracklets, or features, of the map agreed on the measurement of each frame; where "
-      "there are few, the error above grows. " +
+      "The number of inlier tracklets or landmarks in the measurement of each frame; with few of "
+      "them the error grows. " +
       reference.name + ": half of the frames have " + number(quantile(matches, 0.5), 0) +
       " or more, one in twenty " + number(quantile(matches, 0.05), 0) + " or fewer.";
   return figure;

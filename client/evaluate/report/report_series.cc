@@ -14,8 +14,7 @@
 namespace milepost {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-// The method that each colour of the style belongs to, here and in the laboratory's report
+// The method of each colour of the style sheet, here and in the laboratory's report
 // (tests/lab/laboratory/figures.py).
 constexpr std::array<std::string_view, 9> kMethodOfColour = {kDefaultMethod,
                                                              "tracklet-regression-kalman",
@@ -26,7 +25,7 @@ constexpr std::array<std::string_view, 9> kMethodOfColour = {kDefaultMethod,
                                                              "wisurf",
                                                              "tracklet-regression-unaveraged",
                                                              "inverse-scale"};
-constexpr double kWidestToNarrowest = 8;  // of the methods' error scales in one plot
+constexpr double kWidestToNarrowest = 8;  // largest ratio of the methods' error scales in one plot
 
 double finite_or_nan(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? *value : kNaN;
@@ -43,7 +42,7 @@ bool on_one_segment(const std::vector<MethodEvaluation>& methods) {
   return segments.size() <= 1;
 }
 
-// Metres driven since the first frame. A position that is not valid adds nothing.
+// The distance driven since the first frame. An invalid position adds nothing.
 std::vector<double> driven_m(const Drive& drive) {
   std::vector<double> driven;
   double sum_m = 0;
@@ -58,7 +57,7 @@ std::vector<double> driven_m(const Drive& drive) {
   return driven;
 }
 
-// Of each frame, as the first method that knows it has it.
+// The true arc length of each frame, from the first method that has it.
 std::vector<double> truth_alongs(const std::vector<MethodEvaluation>& methods) {
   std::vector<double> alongs;
   for (const MethodEvaluation& evaluation : methods) {
@@ -91,8 +90,7 @@ std::size_t reference_of(const std::vector<MethodEvaluation>& methods) {
   return 0;
 }
 
-// A known method has its own colour, whatever stands beside it; others take those that are left
-// over.
+// A known method always has its own colour; other methods take the unused ones.
 void give_colours(ReportSeries& series) {
   std::vector<std::size_t> left_over;
   for (std::size_t colour = 0; colour < kMethodOfColour.size(); ++colour) {
@@ -122,7 +120,7 @@ void place_on_route(ReportSeries& series, const ReportInput& input) {
   }
   series.route_m.resize(frames, kNaN);
   series.route_from_m = series.route_to_m = kNaN;
-  for (const double at_m : series.route_m) {  // fmin and fmax pass over NaN
+  for (const double at_m : series.route_m) {  // fmin and fmax ignore NaN
     series.route_from_m = std::fmin(series.route_from_m, at_m);
     series.route_to_m = std::fmax(series.route_to_m, at_m);
   }

@@ -1,4 +1,4 @@
-// What the report shows: the numbers of an evaluation, one series a method.
+// The data of the report: the numbers of an evaluation, one series per method.
 #pragma once
 
 #include <cmath>
@@ -15,14 +15,14 @@ struct MethodSeries {
   std::string colour;      // "m0" to "m8"
   std::size_t number = 0;  // among the methods of the input
   const MethodEvaluation* evaluation = nullptr;
-  // One a fix; NaN where unknown.
+  // One value per fix; NaN if unknown.
   std::vector<double> error_m;             // signed, of the arc length
   std::vector<double> localized_errors_m;  // the known ones of error_m, ascending
   std::vector<double> lateral_error_m;     // signed, of the lateral offset
   std::vector<double> heading_error_deg;   // signed
 
   bool knows_lateral() const { return evaluation->summary.knows_lateral(); }
-  // The name of a column of the method's values in the page.
+  // The name of a column of the page with the method's values.
   std::string column(const std::string& values) const {
     return std::to_string(number) + "." + values;
   }
@@ -31,27 +31,26 @@ struct MethodSeries {
 struct ReportSeries {
   std::vector<MethodSeries> methods;  // in the order of the input
   std::size_t reference = 0;          // the default method, or else the first
-  std::string route_label;            // what route_m is
-  std::vector<double> route_m;        // where on the route each frame was taken; NaN where unknown
+  std::string route_label;            // meaning of route_m
+  std::vector<double> route_m;        // position of each frame on the route; NaN if unknown
   double route_from_m = 0;
   double route_to_m = 0;
-  // Errors up to this much are drawn to scale, in either direction; some of a method's may be
-  // beyond.
+  // The errors drawn to scale, in either direction; some may lie beyond.
   double error_limit_m = 0;
-  double lateral_limit_m = 0;  // the same of lateral errors
+  double lateral_limit_m = 0;  // the same for lateral errors
 
   bool has_route() const { return std::isfinite(route_from_m); }
-  bool knows_lateral() const;  // some method
+  bool knows_lateral() const;  // whether some method does
   // REQUIRES: there is a method.
   const MethodSeries& reference_method() const { return methods[reference]; }
-  // Order of drawing: the reference method last, on top.
+  // The drawing order: the reference method last, on top.
   std::vector<const MethodSeries*> back_to_front() const;
 };
 
 ReportSeries report_series(const ReportInput& input);
 
-// The methods of which `shown` is true, with the scales of all; another reference method where it
-// is not.
+// The methods for which `shown` is true, with the scales of all. If the reference method is not
+// among them, the first one becomes the reference.
 ReportSeries only(const ReportSeries& all, const std::function<bool(const MethodSeries&)>& shown);
 
 }  // namespace milepost

@@ -1,4 +1,4 @@
-// How the errors spread: their histogram and their cumulative distribution.
+// Error distributions: the histogram and the cumulative distribution.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,11 +14,11 @@ namespace {
 constexpr int kPlotHeightPx = 250;
 constexpr int kMostBins = 30;
 constexpr int kFewestBins = 10;
-constexpr double kMostScales = 8;  // finer bins than this would leave them empty
+constexpr double kMostScales = 8;  // bounds the number of bins, most of which would be empty
 constexpr int kDensityPoints = 120;
 constexpr int kCumulativePoints = 200;
 
-// Bins of one width, as many on either side of zero.
+// Bins of equal width, as many on either side of zero.
 struct Bins {
   double width_m = 0;
   int per_side = 0;
@@ -29,7 +29,7 @@ struct Bins {
   double from_m(int bin) const { return (bin - per_side) * width_m; }
 };
 
-// Fine enough for the reference method, whose errors may fill only a part of the common scale.
+// Bins fine enough for the reference method, whose errors may fill only a part of the common scale.
 Bins common_bins(const ReportSeries& series) {
   const std::vector<double>& errors_m = series.reference_method().localized_errors_m;
   const int wanted =
@@ -42,7 +42,7 @@ Bins common_bins(const ReportSeries& series) {
 }
 
 struct Histogram {
-  std::vector<std::size_t> counts;  // one a bin
+  std::vector<std::size_t> counts;  // one per bin
   std::size_t before = 0;           // below the first bin
   std::size_t beyond = 0;           // above the last one
   double total = 0;                 // all of them
@@ -69,7 +69,7 @@ Histogram histogram_of(const std::vector<double>& errors_m, const Bins& bins) {
   return histogram;
 }
 
-// Where the steps of an outline begin: at each bin's left edge, from and to zero at the ends.
+// The x coordinates of a histogram outline: the left edge of each bin, with zero at both ends.
 Json edges_m(const Bins& bins) {
   Json edges = Json::array({rounded(-bins.limit_m(), bins.decimals)});
   for (int bin = 0; bin <= bins.count(); ++bin) {
@@ -87,7 +87,8 @@ Json outline_percent(const Histogram& histogram, const Bins& bins) {
   return shares;
 }
 
-// Of the errors inside the bins: those beyond are said in words and would only widen the curve.
+// The normal distribution of the errors inside the bins: outliers are reported as text and would
+// only widen the curve.
 struct Normal {
   double mean_m = 0;
   double sigma_m = 0;
@@ -106,7 +107,7 @@ double peak_percent(const Normal& normal, const Bins& bins) {
   return 100 * normal.share * bins.width_m / (normal.sigma_m * std::sqrt(2 * std::numbers::pi));
 }
 
-// In percent of the frames a bin, like the histogram.
+// In percent of the frames per bin, like the histogram.
 Json density_layer(const Normal& normal, const Bins& bins) {
   Json x = Json::array();
   Json y = Json::array();
@@ -121,7 +122,7 @@ Json density_layer(const Normal& normal, const Bins& bins) {
 }
 
 bool can_show(const Normal& normal, const Bins& bins) {
-  // Narrower than this the curve would leave the plot as a needle.
+  // A narrower curve would not fit into the plot.
   return std::isfinite(normal.sigma_m) && normal.sigma_m > bins.width_m / 4;
 }
 
@@ -130,7 +131,7 @@ bool has_errors(const ReportSeries& series) {
                      [](const MethodSeries& method) { return !method.localized_errors_m.empty(); });
 }
 
-using Histograms = std::vector<Histogram>;  // one a method
+using Histograms = std::vector<Histogram>;  // one per method
 
 double highest_percent(const Histograms& histograms, const Bins& bins) {
   double highest = 0;
@@ -143,7 +144,7 @@ double highest_percent(const Histograms& histograms, const Bins& bins) {
   return highest;
 }
 
-// How many errors one end of the plot cuts off, and of each method: "2 of scale-only".
+// The number of errors cut off at one end of the plot, in total and per method: "2 of scale-only".
 struct CutOff {
   std::size_t total = 0;
   std::vector<std::string> parts;
@@ -165,7 +166,7 @@ std::string cut_off_text(const CutOff& before, const CutOff& beyond, const Bins&
   std::vector<std::string> ends;
   if (before.total > 0) ends.push_back("below \u2212" + limit + " lie " + listed(before.parts));
   if (beyond.total > 0) ends.push_back("above " + limit + " lie " + listed(beyond.parts));
-  if (ends.empty()) return " No error is left out.";
+  if (ends.empty()) return " No error is omitted.";
   return " Not drawn: " + (ends.size() == 2 ? ends[0] + "; " + ends[1] : ends[0]) + ".";
 }
 
@@ -208,7 +209,7 @@ Json steps_layer(const MethodSeries& method, bool is_reference, const Json& x, c
   return layer;
 }
 
-// The method's shares of magnitudes that are no larger than some, which are those of all methods.
+// The cumulative share of the method's error magnitudes at positions common to all methods.
 Json shares_layer(const MethodSeries& method, bool is_reference, double limit_m) {
   const std::vector<double> magnitudes = ascending_magnitudes(method);
   Json x = Json::array();

@@ -14,14 +14,13 @@ namespace milepost {
 namespace {
 
 constexpr double kWithin2SigmaOfNormal = 0.9545;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Column {
   const char* heading;
   const char* unit;
   int decimals;
   std::function<double(const Summary&)> value;
-  // The smaller, the better; NaN takes no part. None: the value itself.
+  // Smaller is better; NaN is ignored. None: the value itself.
   std::function<double(const Summary&)> badness = nullptr;
 
   double badness_of(const Summary& summary) const {
@@ -72,8 +71,8 @@ Columns pose_columns() {
       {"heading max", "\u00B0", 2, [](const S& s) { return s.heading_error_deg.max; }}};
 }
 
-// What the best cell of the column says. Methods that say the same share the mark, since a
-// difference that is not printed is none; where all say the same there is none.
+// The text of the best cell of the column. Methods with the same text share the mark, since a
+// difference that is not printed is none; if all have the same there is none.
 std::optional<std::string> best_text(const Column& column,
                                      const std::vector<MethodEvaluation>& methods) {
   const Summary* best = nullptr;

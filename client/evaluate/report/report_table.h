@@ -8,11 +8,11 @@
 
 namespace milepost {
 
-// {columns, rows: [{cells, best}]}, one row a method. With several methods the best of each column
-// is marked.
+// {columns, rows: [{cells, best}]}, one row per method. With several methods the best of each
+// column is marked.
 Json summary_table(const std::vector<MethodEvaluation>& methods);
 
-// The same of lateral offset and heading, of the methods that know them; null where none does.
+// The same for lateral offset and heading, of the methods that estimate them; null if none does.
 Json pose_table(const std::vector<MethodEvaluation>& methods);
 
 }  // namespace milepost

@@ -14,14 +14,14 @@ enum class PixelFormat {
   bgra8,
 };
 
-// Somebody else's pixels, read during the call that is given them and not kept. Rows from the top,
-// pixels from the left. What a camera's driver says of an image's orientation is applied first: the
-// camera's parameters describe the upright image.
+// A view of pixels that the caller owns; they are read only during the call that receives the view.
+// Rows from top to bottom, pixels from left to right. Apply the orientation that the camera driver
+// reports (EXIF, say) beforehand: the camera parameters describe the upright image.
 struct ImageView {
   const std::uint8_t* data = nullptr;
   int width_px = 0;
   int height_px = 0;
-  std::ptrdiff_t stride_bytes = 0;  // from a row to the next
+  std::ptrdiff_t stride_bytes = 0;  // from the start of one row to that of the next
   PixelFormat format = PixelFormat::gray8;
 };
 

@@ -1,8 +1,8 @@
-// Localization along mapped road: images and rough positions in, fixes out.
+// Localization along mapped roads: images and GNSS positions in, fixes out.
 //
-// The map comes by threads of the localizer's own, which read the cache, ask the server and decode
-// tiles beside the frames. localize() takes what has arrived: it enters no file, socket or
-// database, and waits for no thread that does.
+// Background threads of the localizer read the cache, query the server and decode tiles while
+// images are processed. localize() uses the map data that has arrived: it accesses no file, socket
+// or database and never waits for a thread that does.
 #pragma once
 
 #include <milepost/camera.h>
@@ -23,18 +23,18 @@
 namespace milepost::vehicle {
 
 enum class FixStatus {
-  initializing,  // not yet sure where: what else is told is as wide as that
-  tracking,      // this frame was measured against the map
-  predicted,     // it was not, or spoke against the place: the motion carries on
-  lost,          // the place is given up; looking again about the last one or the receiver
-  off_map,       // no mapped road is near, or the vehicle drove over an end of it
+  initializing,  // the hypotheses are not decided yet: the sigmas cover all of them
+  tracking,      // this image was measured against the map
+  predicted,     // no measurement, or one that contradicts the pose: propagated by the motion
+  lost,          // the pose was rejected; relocalizing around the last fix or the GNSS position
+  off_map,       // no mapped road is near, or the vehicle drove past the end of one
 };
 
 // "initializing", "tracking", "predicted", "lost", "off-map".
 MILEPOST_PUBLIC const char* name_of(FixStatus status);
 
-// The answer for one time. Right or silent: until one place outweighs all others and "not on this
-// map", sigmas are as wide as all that it may be.
+// The pose estimate for one time. A pose is claimed only once one hypothesis outweighs all others
+// and "not on this map" (a sequential test); until then the sigmas cover all hypotheses.
 struct Fix {
   double timestamp_s = 0;
   FixStatus status = FixStatus::initializing;
@@ -42,69 +42,70 @@ struct Fix {
   std::string map;
   std::string build;  // of the map
   std::string segment;
-  // Where the camera is on it: arc length from the segment's start, [0, its length], and to the
-  // right of its line.
+  // Position of the camera in Frenet coordinates: arc length from the segment's start, in [0,
+  // length of the segment], and lateral offset from its line, positive to the right.
   std::optional<double> along_m;
-  double sigma_m = 0;  // one standard deviation, with along_m
+  double sigma_m = 0;  // one standard deviation of along_m; valid only with it
   std::optional<double> lateral_m;
   std::optional<double> lateral_sigma_m;  // one standard deviation
   std::optional<Pose> pose;               // of the vehicle's reference point
-  int matches = 0;                        // landmarks that agreed on the measurement
+  int matches = 0;                        // number of inlier landmarks of the measurement
 };
 
-// A stretch of road ahead of which nothing is held, and why.
+// A range of road ahead whose map data is not held, and why.
 struct MissingRange {
   std::string map;
   std::string segment;
   double from_m = 0;
   double to_m = 0;
-  std::optional<Error> why;  // none: it was asked for and has not arrived yet
+  std::optional<Error> why;  // none: requested, not received yet
 };
 
-// What is held of the map ahead of the latest fix.
+// The map data held ahead of the latest fix.
 struct MapAhead {
-  double held_m = 0;                  // from there on without a gap
-  std::vector<MissingRange> missing;  // of what is wanted
-  std::optional<Error> failure;       // why the road about the vehicle is not known
+  double held_m = 0;                  // contiguous length of road held, starting at the fix
+  std::vector<MissingRange> missing;  // wanted, but not held
+  std::optional<Error> failure;       // why the roads around the vehicle are unknown
 };
 
 struct LocalizerSettings {
-  double ahead_m = 300;  // of map wanted ahead of the vehicle, [0, 5000]
+  double ahead_m = 300;  // length of road to prefetch ahead of the vehicle, [0, 5000]
 };
 
-// Not safe to use from several threads at once, but for map_ahead(). Moves, and does not copy.
+// Not safe to use from several threads at once, except for map_ahead(). Movable, not copyable.
 class MILEPOST_PUBLIC Localizer {
  public:
-  // Reads no map yet, and waits for no server.
-  // Errors: invalid_input (a value out of its range, a URL or a file that is none), unsupported
-  // (a lens with distortion), not_found, corrupt, io (the map file, the cache's folder).
+  // Reads no map data yet and does not wait for a server.
+  // Errors: invalid_input (a value out of range, an invalid URL, not a map file), unsupported (a
+  // lens with distortion), not_found, corrupt, io (the map file, the cache directory).
   static Result<Localizer> open(const Source& source, const Camera& camera,
                                 const LocalizerSettings& settings = {});
-  // Ends within a second, whatever the server does.
+  // Returns within a second, even if the server hangs.
   ~Localizer();
   Localizer(Localizer&&) noexcept;
   Localizer& operator=(Localizer&&) noexcept;
 
-  // Readings are told before the first image that is later than them; of several of a kind the
-  // latest counts. Errors: invalid_input (not finite, out of range, or earlier than the one
-  // before): it is left out.
+  // Adds a sensor reading. Pass each reading before the first image with a later timestamp, in
+  // order of time. Of several GNSS readings the latest is used.
+  // Errors: invalid_input (not finite, out of range, or out of order): the reading is ignored.
   Status observe(const ReceiverReading& reading);
   Status observe(const OdometryReading& reading);
 
-  // The fix of the next image. Errors: invalid_input (the image is none, or of another size than
-  // the camera's; a time that is not after the one before) and what the source says while there is
-  // nothing of the map to go on with. The localizer stays usable after each.
+  // The fix of the next image.
+  // Errors: invalid_input (no image data, an image size other than the camera's, a timestamp that
+  // is not finite or not later than the previous image's); the error of the map source while there
+  // is no map data to continue with. The localizer remains usable after any error.
   Result<Fix> localize(double timestamp_s, const ImageView& image);
 
-  // Where the latest fix has come to by a time after its image, as the motion is known: `predicted`
-  // where that is tracked. REQUIRES: not before the latest image.
+  // The latest fix propagated by the estimated motion to a time after its image, with the status
+  // `predicted` if it is tracked. REQUIRES: not before the latest image.
   Fix fix_at(double timestamp_s) const;
 
-  // May be called from any thread.
+  // Safe to call from any thread.
   MapAhead map_ahead() const;
 
-  // For recorded drives, so that their fixes are the same each time: waits until the map that an
-  // image of that time needs is held, or was asked for in vain. A vehicle does not.
+  // For reproducible results on recorded drives, not for use in a vehicle: blocks until the map
+  // data for an image at that time is held, or requesting it has failed.
   // Errors: timed_out, cancelled.
   Status wait_for_map(double timestamp_s, const Patience& patience = {});
 

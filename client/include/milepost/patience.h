@@ -1,4 +1,4 @@
-// How long a call that may take time may take.
+// Time limit and cancellation of blocking calls.
 #pragma once
 
 #include <chrono>
@@ -7,10 +7,10 @@
 namespace milepost::vehicle {
 
 struct Patience {
-  // From the call on. When it is over, the call ends with `timed_out`.
+  // Counted from the start of the call, which then ends with `timed_out`.
   std::chrono::milliseconds longest = std::chrono::seconds(30);
-  // Asked now and then, from any thread: once it says true, the call ends with `cancelled` within a
-  // tenth of a second. May be empty.
+  // Polled from any thread: once it returns true, the call ends with `cancelled` within 0.1 s. May
+  // be empty.
   std::function<bool()> cancelled = {};
 };
 

@@ -1,4 +1,4 @@
-// Expected failures are values.
+// Expected failures are returned as values.
 #pragma once
 
 #include <cassert>
@@ -9,32 +9,32 @@
 namespace milepost::vehicle {
 
 enum class ErrorCode {
-  invalid_input,  // the caller or a file of the user is wrong; trying again does not help
-  unsupported,    // sound, but not built yet: nothing of it is ignored
-  not_found,      // the named thing does not exist
-  gone,           // it existed in an older build of the map
-  corrupt,        // stored or received bytes break their format
-  io,             // the disk or the operating system refused
-  unavailable,    // the server cannot be reached or is busy; trying again later may help
+  invalid_input,  // an argument or a file of the caller is wrong; retrying does not help
+  unsupported,    // valid, but not implemented; never silently ignored
+  not_found,      // the named object does not exist
+  gone,           // it belongs to a build of the map that was replaced
+  corrupt,        // stored or received bytes violate their format
+  io,             // an operation of the file system or the operating system failed
+  unavailable,    // the server cannot be reached or is busy; retrying later may help
   cancelled,      // stopped on request
-  timed_out,      // the deadline was over
+  timed_out,      // the deadline has passed
 };
 
-// One failure, told in one line: "WHERE: WHAT; MEND".
+// One failure. line() formats it as "WHERE: WHAT; HINT".
 struct Error {
   ErrorCode code = ErrorCode::invalid_input;
-  std::string where;  // a file and the place in it, a URL, or a parameter
+  std::string where;  // a file and position, a URL, or a parameter
   std::string what;   // what is wrong there
-  std::string mend;   // what to do about it; may be empty
+  std::string hint;   // what to do about it; may be empty
 
   std::string line() const {
     std::string text = where.empty() ? what : where + ": " + what;
-    if (!mend.empty()) text += "; " + mend;
+    if (!hint.empty()) text += "; " + hint;
     return text;
   }
 };
 
-// A value or an Error. REQUIRES: value, * and -> only when ok(), error() only when not.
+// A value or an Error. REQUIRES: value access (* and ->) only if ok(), error() only if not.
 template <class T>
 class [[nodiscard]] Result {
  public:

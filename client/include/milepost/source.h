@@ -1,4 +1,4 @@
-// Where the map comes from.
+// Where the map comes from: a tile server or a map file.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 namespace milepost::vehicle {
 
-// A tile server, with a cache on disk in between: what was fetched once serves without a network.
+// A tile server with a cache on disk: what was fetched once is available without a network.
 struct ServerSource {
-  std::string url;              // http(s)://HOST:PORT, perhaps with a path
-  std::string cache_directory;  // made if need be; several processes may share it
-  std::uint64_t cache_limit_bytes = 1'000'000'000;  // the least recently used tiles go first
-  double connect_timeout_s = 5;
-  // An answer that brings less than least_bytes_per_s over so long is given up and asked for again.
-  double stall_timeout_s = 10;
-  double least_bytes_per_s = 200;
+  std::string url;              // http(s)://HOST:PORT, optionally with a path
+  std::string cache_directory;  // created if missing; several processes may share it
+  std::uint64_t cache_limit_bytes = 1'000'000'000;  // least recently used tiles are evicted first
+  double connect_timeout_s = 5;                     // above 0, at most 3600
+  // A response with less than least_bytes_per_s over this time is aborted and requested again.
+  double stall_timeout_s = 10;     // above 0, at most 3600
+  double least_bytes_per_s = 200;  // above 0
 };
 
-// A map file: no server, no cache.
+// A map file, read without a server or a cache.
 struct FileSource {
   std::string map_file;
 };

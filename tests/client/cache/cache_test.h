@@ -1,4 +1,4 @@
-// A cache in a folder of the test's own, and ways to damage it.
+// A cache in a temporary folder, and helpers to damage it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ class CacheTest : public ::testing::Test {
     return std::move(cache).value();
   }
 
-  // Runs statements in the cache's file as another program would.
+  // Runs SQL in the cache's file as another program would.
   void change_database(const std::string& sql, const std::string& name = "tiles-1.sqlite") const {
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open((folder_ / name).c_str(), &database), SQLITE_OK);
@@ -48,7 +48,7 @@ class CacheTest : public ::testing::Test {
     }
   }
 
-  // Of the tiles 0 to `count`, in this order, each of which counts as used then.
+  // Finds the tiles 0 to `count` in this order, which marks each as used.
   static std::vector<std::uint32_t> present(TileCache& cache, std::uint32_t count) {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t number = 0; number < count; ++number) {

@@ -1,4 +1,4 @@
-// Clocks that are wrong, numbers in the file that cannot be, and files that do not belong there.
+// Wrong clocks, invalid numbers in the file, and foreign files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -91,7 +91,7 @@ TEST_F(DamagedCacheTest, UsesThatAreAllAbsurdAreSoonForgotten) {
   EXPECT_EQ(cache->counters().failures, 0U);
 }
 
-// Statements that leave a total that is not the entries'.
+// SQL that makes the stored total differ from the sum over the entries.
 const std::vector<std::string> kWrongTotals = {
     "UPDATE total SET bytes = 1000000000000000",
     "UPDATE total SET bytes = 1100",
@@ -104,7 +104,7 @@ const std::vector<std::string> kWrongTotals = {
     "DROP TABLE total; CREATE TABLE total (bytes TEXT); INSERT INTO total VALUES ('much')",
 };
 
-TEST_F(DamagedCacheTest, AWrongTotalIsCountedAnewAtTheStart) {
+TEST_F(DamagedCacheTest, AWrongTotalIsRecomputedAtTheStart) {
   for (const std::string& damage : kWrongTotals) {
     SCOPED_TRACE(damage);
     store_tiles(*open(1000), 0, 10);
@@ -118,7 +118,7 @@ TEST_F(DamagedCacheTest, AWrongTotalIsCountedAnewAtTheStart) {
   }
 }
 
-TEST_F(DamagedCacheTest, AWrongTotalIsCountedAnewOnTheWay) {
+TEST_F(DamagedCacheTest, AWrongTotalIsRecomputedDuringUse) {
   for (const std::string& damage : kWrongTotals) {
     SCOPED_TRACE(damage);
     const auto cache = open(1000);
@@ -162,7 +162,7 @@ TEST_F(DamagedCacheTest, ASizeThatIsNotTheContentsIsFoundAndTheEntryDropped) {
   EXPECT_EQ(present(*cache, 20), from_to(10, 20));
 }
 
-// A file that breaks its own rules cannot be told from one whose bytes were changed.
+// A file that violates its constraints cannot be distinguished from one with changed bytes.
 TEST_F(DamagedCacheTest, AnEntryThatCannotBeRemovedCostsTheFile) {
   const auto cache = open(300);
   store_tiles(*cache, 0, 3);
@@ -180,7 +180,7 @@ class ForeignFilesTest : public CacheTest {
     std::ofstream(folder_ / name) << std::string(10000, 'x');
   }
 
-  // Whether what one run stores is there in the next.
+  // Whether an entry stored in one run is found in the next.
   void expect_remembers(std::uint32_t number) {
     open()->store(numbered_key(number), numbered_content(number));
     const auto cache = open();
@@ -222,8 +222,8 @@ TEST_F(ForeignFilesTest, AllWhoShareTheLastGenerationMoveOnToTheSameNewOne) {
   const auto first = open();
   const auto second = open();
   change_database("DROP TABLE total", "tiles-999999.sqlite");
-  store_tiles(*first, 2, 3);   // meets the damage, sets the file aside
-  store_tiles(*second, 2, 3);  // meets the damage, finds the new file
+  store_tiles(*first, 2, 3);   // detects the damage, replaces the file
+  store_tiles(*second, 2, 3);  // detects the damage, finds the new file
   store_tiles(*first, 3, 4);
   store_tiles(*second, 4, 5);
   EXPECT_THAT(present(*first, 5), ElementsAre(3, 4));

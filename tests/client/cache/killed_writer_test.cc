@@ -1,4 +1,4 @@
-// A process that is killed while it stores leaves a cache that another one reads.
+// A process killed while it stores leaves a cache that another one can read.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
@@ -40,7 +40,7 @@ class Writer {
     output_ = fdopen(ends[0], "r");
   }
 
-  // Reads lines until the one that says `number`.
+  // Reads lines until the one with `number`.
   bool wait_until_stored(unsigned number) {
     unsigned stored = 0;
     while (std::fscanf(output_, "%u", &stored) == 1) {

@@ -1,5 +1,5 @@
-// Another process holds what the cache needs. No wait may be endless, nor paid at every frame: with
-// a wait at each use these tests take hours.
+// Another process holds a lock that the cache needs. No wait may be unbounded, nor repeated at
+// every frame: with a wait at each use these tests would take hours.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -59,7 +59,7 @@ TEST_F(TileCacheTest, TheLeastRecentlyUsedGoesFirst) {
     cache->store(numbered_key(number), bytes_of_size(100, 1));
   }
   ++now_s_;
-  EXPECT_TRUE(cache->find(numbered_key(0)).has_value());  // 1 is the oldest use now
+  EXPECT_TRUE(cache->find(numbered_key(0)).has_value());  // 1 is the least recently used now
   ++now_s_;
   cache->touch(numbered_key(1));  // and now 2 is
   ++now_s_;
@@ -172,8 +172,8 @@ TEST_F(TileCacheTest, AllWhoShareADamagedFileMoveOnToTheSameNewOne) {
   const auto second = open();
   first->store(numbered_key(1), numbered_content(1));
   change_database("DROP TABLE total");
-  first->store(numbered_key(2), numbered_content(2));   // meets the damage, sets the file aside
-  second->store(numbered_key(2), numbered_content(2));  // meets the damage, finds the new file
+  first->store(numbered_key(2), numbered_content(2));   // detects the damage, replaces the file
+  second->store(numbered_key(2), numbered_content(2));  // detects the damage, finds the new file
   first->store(numbered_key(3), numbered_content(3));
   second->store(numbered_key(4), numbered_content(4));
   EXPECT_THAT(present(*first, 5), ElementsAre(3, 4));
@@ -266,7 +266,7 @@ TEST_F(TileCacheTest, ADamagedDocumentIsNotListed) {
   EXPECT_THAT(open()->segment_documents(), IsEmpty());
 }
 
-// Files of this process cannot grow beyond a size, as on a full disk, until the end of the scope.
+// Limits the size of this process's files, as on a full disk, until the end of the scope.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t file_bytes) {
@@ -299,7 +299,7 @@ TEST_F(TileCacheTest, AFullDiskIsCountedAndWhatWasStoredStays) {
     EXPECT_GT(cache->counters().failures, 0U);
     EXPECT_EQ(cache->find(numbered_key(0)), numbered_content(0));
   }
-  cache->store(numbered_key(30), numbered_content(30));  // there is room again
+  cache->store(numbered_key(30), numbered_content(30));  // there is space again
   EXPECT_EQ(cache->find(numbered_key(30)), numbered_content(30));
   EXPECT_EQ(cache->counters().damaged_files, 0U);
 }

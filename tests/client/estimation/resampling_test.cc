@@ -25,7 +25,7 @@ TEST(Resampling, DrawsEachAsOftenAsItsWeightSaysToOneMoreOrLess) {
   EXPECT_EQ(times[0] + times[2] + times[3], 100);
 }
 
-// The sum that is told may be more than the weights' by rounding, or by far.
+// The total passed may exceed the sum of the weights, by rounding or by far.
 TEST(Resampling, WhatIsBeyondTheSumIsTheLast) {
   EXPECT_EQ(drawn({1, 1}, 4, 4), (std::vector<int>{1, 3}));
 }

@@ -5,7 +5,7 @@
 namespace milepost {
 namespace {
 
-TEST(RobustWeights, AreOneAtNoughtAndEven) {
+TEST(RobustWeights, AreOneAtZeroAndEven) {
   for (const auto weight : {cauchy_weight, geman_mcclure_weight, biweight}) {
     EXPECT_EQ(weight(0, 3), 1);
     EXPECT_EQ(weight(-1.5, 3), weight(1.5, 3));

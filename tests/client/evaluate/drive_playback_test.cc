@@ -1,4 +1,4 @@
-// The readings of a drive's sensors, told in time.
+// The readings of a drive's sensors in order of time.
 #include "client/evaluate/drive_playback.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ std::vector<double> times_of(std::span<const Reading> readings) {
   return times_s;
 }
 
-TEST(SensorLog, TellsEachReadingOnceItsTimeHasCome) {
+TEST(SensorLog, ReturnsEachReadingOnceItsTimeHasCome) {
   Drive drive;
   drive.odometry = {{1.0, 5, 0}, {1.1, 5, 0}, {1.2, 5, 0}, {1.3, 5, 0}};
   drive.gps = {{1.0, {}, 3}, {2.0, {}, 3}};

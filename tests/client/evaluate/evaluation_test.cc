@@ -1,4 +1,5 @@
-// Fixes against the truth: along, lateral and heading, and the files that tell them.
+// Fixes compared with the ground truth: arc length, lateral offset and heading, and the output
+// files.
 #include "client/evaluate/evaluation.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +28,7 @@ GeoPoint at(double east_m, double north_m) {
   return frame.geo_from_enu({east_m, north_m, 0});
 }
 
-// A map of that one road, with 200 kB in every layer.
+// A map of that road, with 200 kB in every layer.
 class RoadMap : public testing::MemorySource {
  public:
   RoadMap() : MemorySource({"town", "b1"}, "layer", nlohmann::json::object()) {
@@ -43,7 +44,7 @@ class RoadMap : public testing::MemorySource {
   }
 };
 
-// What the method says of a frame.
+// The method's fix of a frame.
 struct Pose {
   std::optional<double> along_m;
   std::optional<double> lateral_m = {};
@@ -100,7 +101,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-TEST(Evaluation, LateralIsFromTheLineAndPositiveToTheRight) {
+TEST(Evaluation, LateralOffsetIsFromTheLineAndPositiveToTheRight) {
   const MethodEvaluation evaluation = evaluated({{10.1, 2.3}, {19.9, 1.9}});
   EXPECT_NEAR(*evaluation.fixes[0].truth_along_m, 10, kMm);
   EXPECT_NEAR(*evaluation.fixes[0].error_m, 0.1, kMm);
@@ -141,7 +142,7 @@ TEST(Evaluation, AShareWithinTwoSigmaIsOfTheFramesThatClaimASigma) {
   EXPECT_NEAR(evaluated({{10, 2.1, {}, 0.1}, {20, 2.5}}).summary.lateral_within_2_sigma, 1, 1e-9);
 }
 
-TEST(Evaluation, AMethodThatKnowsNoLateralHasNoFigureOfIt) {
+TEST(Evaluation, AMethodWithoutLateralOffsetHasNoFigureOfIt) {
   const MethodEvaluation evaluation = evaluated({{10}, {20}});
   EXPECT_FALSE(evaluation.summary.knows_lateral());
   const auto summary = nlohmann::json::parse(summary_json({evaluation})).at(0);

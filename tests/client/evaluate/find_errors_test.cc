@@ -1,4 +1,4 @@
-// How far a found drive is off.
+// The errors of global localization.
 #include "client/evaluate/find_errors.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ FindSummary summary_of(const FoundRun& run) {
   return find_summary(run.found, find_errors(run.drive, run.found));
 }
 
-// Ten frames, the fix of the k-th so many metres north of the truth.
+// Ten frames with given errors of their fixes in metres north.
 FoundRun steps_of_a_metre() {
   FoundRun run(10, 0);
   for (std::size_t i = 0; i < 10; ++i) {
@@ -28,7 +28,7 @@ FoundRun steps_of_a_metre() {
 }
 
 TEST(FindErrors, HeadingsAreComparedAcrossNorth) {
-  FoundRun run(3, 0);  // the fixes look at 3 degrees
+  FoundRun run(3, 0);  // the fixes have a heading of 3 degrees
   run.drive.frames[1].heading_deg = 359;
   run.drive.frames[2].heading_deg = 7;
   const std::vector<FindError> errors = find_errors(run.drive, run.found);
@@ -51,8 +51,8 @@ TEST(FindErrors, OfAnUnknownPositionNoneIsKnown) {
 TEST(FindSummary, CountsFromTheFirstTrackedFrame) {
   FoundRun run(40, 10);
   for (FoundFrame& frame : run.found) frame.fix.timestamp_s += 1000;
-  run.found[30].fix.status = FindStatus::predicted;
-  run.found[31].fix.status = FindStatus::lost;
+  run.found[30].fix.status = GlobalStatus::predicted;
+  run.found[31].fix.status = GlobalStatus::lost;
   const FindSummary summary = summary_of(run);
   EXPECT_EQ(summary.frames, 40U);
   EXPECT_EQ(summary.tracked_frames, 29U);
@@ -73,7 +73,7 @@ TEST(FindSummary, FiguresAreOfTheTrackedFrames) {
   EXPECT_NEAR(all.p95, 9.55, 0.001);
   EXPECT_NEAR(all.max, 10, 0.001);
   EXPECT_NEAR(all.within_2_sigma, 0.4, 1e-9);
-  run.found[9].fix.status = FindStatus::lost;
+  run.found[9].fix.status = GlobalStatus::lost;
   EXPECT_NEAR(summary_of(run).position_m.max, 9, 0.001);
 }
 
@@ -84,7 +84,7 @@ TEST(FindSummary, MoreThanTenMetresOffIsAWrongPlace) {
     const LocalFrame here(run.drive.frames[i].position);
     run.found[i].fix.position = here.geo_from_enu({11, 0, 0});
   }
-  run.found[4].fix.status = FindStatus::lost;
+  run.found[4].fix.status = GlobalStatus::lost;
   EXPECT_EQ(summary_of(run).wrong_frames, 1U);
 }
 

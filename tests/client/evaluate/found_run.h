@@ -1,20 +1,20 @@
-// A found drive to report on: a real finder looks on black frames between four walls, and what it
-// is said to have found is made up.
+// A global localization run for reports: a real localizer processes black frames between four
+// walls, and its estimates are invented.
 #pragma once
 
 #include "client/evaluate/report/find_report_data.h"
 
 namespace milepost::testing {
 
-// A finder in a yard of 146 by 222 m that has seen a black frame.
-Finder idle_finder(std::size_t particles);
+// A global localizer in a yard of 146 by 222 m that has processed a black frame.
+GlobalLocalizer idle_finder(std::size_t particles);
 
-// Frames as of straight_drive(), tracked from frame `found_from` on; each fix lies 2 m north of the
-// truth and looks 3 degrees too far clockwise, with sigmas of 0.9 m and 2 degrees.
+// Frames of straight_drive(), tracked from frame `found_from` on; each fix lies 2 m north of the
+// truth with a heading 3 degrees too far clockwise, and sigmas of 0.9 m and 2 degrees.
 struct FoundRun {
   FoundRun(std::size_t frames, std::size_t found_from);
 
-  // The run must outlive it.
+  // REQUIRES: the run outlives the result.
   FindReportInput input() const;
 
   Drive drive;

@@ -26,7 +26,7 @@ TEST(CheckCamera, TakesWhatIsSound) {
   Camera camera = sound_camera();
   camera.lens = LensModel::brown_conrady;
   camera.distortion = {0, 0, 0, 0};
-  EXPECT_TRUE(check_camera(camera).ok());  // has none
+  EXPECT_TRUE(check_camera(camera).ok());  // no distortion
 }
 
 TEST(CheckCamera, RefusesWhatIsOutOfRange) {
@@ -36,7 +36,7 @@ TEST(CheckCamera, RefusesWhatIsOutOfRange) {
     change(camera);
     const Status status = check_camera(camera);
     return !status.ok() && status.error().code == ErrorCode::invalid_input &&
-           !status.error().mend.empty();
+           !status.error().hint.empty();
   };
   EXPECT_TRUE(refused([](Camera& camera) { camera.width_px = 0; }));
   EXPECT_TRUE(refused([](Camera& camera) { camera.height_px = -1; }));
@@ -69,17 +69,17 @@ TEST(OpenSource, NamesWhatIsWrong) {
 }
 
 // Metres east, north and up from the camera to the reference point.
-EnuPoint from_camera(const CameraPlacement& camera, const Pose& pose) {
+EnuPoint from_camera(const GeoCameraPose& camera, const Pose& pose) {
   return LocalFrame(camera.position)
       .enu_from_geo({pose.latitude_deg, pose.longitude_deg, pose.altitude_m});
 }
 
-CameraPlacement camera_looking(double heading_deg, double pitch_deg, double roll_deg) {
+GeoCameraPose camera_looking(double heading_deg, double pitch_deg, double roll_deg) {
   return {{49, 8.4, 110}, heading_deg, pitch_deg, roll_deg};
 }
 
 TEST(VehiclePose, WithoutMountingIsTheCameras) {
-  CameraPlacement camera = camera_looking(123, 4, -2);
+  GeoCameraPose camera = camera_looking(123, 4, -2);
   for (int i = 0; i < 36; ++i) camera.covariance[i] = i % 7 == 0 ? 0.01 * (i + 1) : 0;
   const Pose pose = vehicle_pose_of(camera, {});
   EXPECT_NEAR(std::hypot(from_camera(camera, pose).east_m, from_camera(camera, pose).up_m), 0, kMm);
@@ -89,9 +89,9 @@ TEST(VehiclePose, WithoutMountingIsTheCameras) {
   for (int i = 0; i < 36; ++i) EXPECT_NEAR(pose.covariance[i], camera.covariance[i], 1e-6) << i;
 }
 
-// The camera 2 m before the reference point, 0.5 m to its right and 1.5 m above, driving east.
+// The camera 2 m ahead of the reference point, 0.5 m to its right and 1.5 m above, driving east.
 TEST(VehiclePose, TheLeverArmLeadsBackToTheReferencePoint) {
-  const CameraPlacement camera = camera_looking(90, 0, 0);
+  const GeoCameraPose camera = camera_looking(90, 0, 0);
   Mounting mounting;
   mounting.forward_m = 2;
   mounting.right_m = 0.5;
@@ -117,8 +117,8 @@ TEST(VehiclePose, TheBoresightIsTakenOff) {
   EXPECT_NEAR(vehicle_pose_of(camera_looking(100, 0, 4), mounting).roll_deg, 1, 1e-9);
 }
 
-// A camera that looks to the right side, of a vehicle that climbs by 10 degrees, is rolled by them:
-// the vehicle's right stays level, its camera sees the road rise from right to left.
+// A camera that looks to the right side of a vehicle that climbs at 10 degrees has a roll of 10
+// degrees: the vehicle's right axis is level, and in the image the road rises from right to left.
 TEST(VehiclePose, OfACameraThatLooksAsideTurnsPitchIntoRoll) {
   Mounting mounting;
   mounting.yaw_deg = 90;
@@ -128,9 +128,9 @@ TEST(VehiclePose, OfACameraThatLooksAsideTurnsPitchIntoRoll) {
   EXPECT_NEAR(pose.roll_deg, 0, 1e-6);
 }
 
-// A degree of heading moves a reference point 2 m behind the camera by 35 mm across.
+// One degree of heading moves a reference point 2 m behind the camera by 35 mm sideways.
 TEST(VehiclePose, HeadingsUncertaintyMovesTheReferencePoint) {
-  CameraPlacement camera = camera_looking(0, 0, 0);
+  GeoCameraPose camera = camera_looking(0, 0, 0);
   camera.covariance[21] = 1;
   Mounting mounting;
   mounting.forward_m = 2;
@@ -140,22 +140,22 @@ TEST(VehiclePose, HeadingsUncertaintyMovesTheReferencePoint) {
   EXPECT_NEAR(pose.covariance[21], 1, 1e-6);
 }
 
-// Due south the heading turns over from -180 to 180 degrees; what it does not know of it does not.
-TEST(VehiclePose, DueSouthIsADirectionLikeOthers) {
-  CameraPlacement camera = camera_looking(180, 0, 0);
+// Due south the heading wraps around from -180 to 180 degrees; its uncertainty does not.
+TEST(VehiclePose, HeadingsWrapAroundDueSouth) {
+  GeoCameraPose camera = camera_looking(180, 0, 0);
   camera.covariance[21] = 0.01;
   const Pose pose = vehicle_pose_of(camera, {});
   EXPECT_NEAR(pose.covariance[21], 0.01, 1e-6);
   EXPECT_NEAR(pose.covariance[28], 0, 1e-6);
 }
 
-TEST(Deadline, OfForEverCanBeCounted) {
+TEST(Deadline, OfTheLongestPatienceDoesNotOverflow) {
   Patience patience;
   patience.longest = std::chrono::milliseconds::max();
   EXPECT_GT(deadline_of(patience), std::chrono::steady_clock::now() + std::chrono::hours(24));
 }
 
-TEST(OpenSource, TimeOutsAreAboveNothingAndNotForEver) {
+TEST(OpenSource, TimeoutsAreAboveZeroAndBounded) {
   ServerSource server;
   server.url = "http://127.0.0.1:1";
   server.stall_timeout_s = std::numeric_limits<double>::infinity();

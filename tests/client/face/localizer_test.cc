@@ -1,7 +1,7 @@
-// What the public localizer and finder refuse; that they find is tested by the example (system,
-// install) and by the library's own tests.
+// What the public localizers reject; that they work is tested by the example (system, install) and
+// by the library's own tests.
 #include <gtest/gtest.h>
-#include <milepost/finder.h>
+#include <milepost/global_localizer.h>
 #include <milepost/localizer.h>
 
 #include <limits>
@@ -76,14 +76,14 @@ TEST_F(PublicFace, RefusesImagesThatAreNoneAndTimesThatGoBack) {
   auto localizer = Localizer::open(no_server(), camera());
   ASSERT_TRUE(localizer.ok());
   const auto fix = localizer->localize(5, image());
-  ASSERT_TRUE(fix.ok()) << fix.error().line();  // nothing was asked for yet
+  ASSERT_TRUE(fix.ok()) << fix.error().line();  // nothing was requested yet
   EXPECT_EQ(fix->status, FixStatus::initializing);
   EXPECT_FALSE(localizer->localize(5, image()).ok());
   EXPECT_FALSE(localizer->localize(kNothing, image()).ok());
   ImageView wrong = image();
   wrong.width_px = 7;
   EXPECT_FALSE(localizer->localize(6, wrong).ok());
-  EXPECT_TRUE(localizer->localize(6, image()).ok());  // what was refused left no trace
+  EXPECT_TRUE(localizer->localize(6, image()).ok());  // rejected calls had no effect
   EXPECT_EQ(localizer->fix_at(7).status, FixStatus::initializing);
 }
 
@@ -101,7 +101,7 @@ TEST_F(PublicFace, WaitingForTheMapHasADeadlineAndCanBeCancelled) {
   const auto began = std::chrono::steady_clock::now();
   later.cancelled = [&] { return std::chrono::steady_clock::now() > began; };
   EXPECT_EQ(localizer->wait_for_map(10, later).error().code, ErrorCode::cancelled);
-  EXPECT_TRUE(localizer->wait_for_map(10).ok());  // it was asked for in vain
+  EXPECT_TRUE(localizer->wait_for_map(10).ok());  // the request has failed
   EXPECT_TRUE(localizer->map_ahead().failure.has_value());
 }
 
@@ -110,30 +110,35 @@ TEST_F(PublicFace, RefusesSettingsOutOfRange) {
   settings.ahead_m = -1;
   EXPECT_EQ(Localizer::open(no_server(), camera(), settings).error().code,
             ErrorCode::invalid_input);
-  FinderSettings finder;
-  finder.particles = 5;
-  EXPECT_EQ(Finder::open(no_server(), camera(), finder).error().code, ErrorCode::invalid_input);
-  finder = {};
-  finder.area = Area{8.5, 49, 8.4, 49.1};
-  EXPECT_EQ(Finder::open(no_server(), camera(), finder).error().code, ErrorCode::invalid_input);
-  finder = {};
-  finder.start = FinderStart{49, 8.4, 0};
-  EXPECT_EQ(Finder::open(no_server(), camera(), finder).error().code, ErrorCode::invalid_input);
+  GlobalLocalizerSettings global_settings;
+  global_settings.particles = 5;
+  EXPECT_EQ(GlobalLocalizer::open(no_server(), camera(), global_settings).error().code,
+            ErrorCode::invalid_input);
+  global_settings = {};
+  global_settings.area = Area{8.5, 49, 8.4, 49.1};
+  EXPECT_EQ(GlobalLocalizer::open(no_server(), camera(), global_settings).error().code,
+            ErrorCode::invalid_input);
+  global_settings = {};
+  global_settings.start = PosePrior{49, 8.4, 0};
+  EXPECT_EQ(GlobalLocalizer::open(no_server(), camera(), global_settings).error().code,
+            ErrorCode::invalid_input);
 }
 
-TEST_F(PublicFace, OpeningAFinderHasADeadlineAndCanBeCancelled) {
+TEST_F(PublicFace, OpeningAGlobalLocalizerHasADeadlineAndCanBeCancelled) {
   Patience cancelled;
   cancelled.cancelled = [] { return true; };
-  EXPECT_EQ(Finder::open(no_server(), camera(), {}, cancelled).error().code, ErrorCode::cancelled);
+  EXPECT_EQ(GlobalLocalizer::open(no_server(), camera(), {}, cancelled).error().code,
+            ErrorCode::cancelled);
   Patience none;
   none.longest = std::chrono::milliseconds(0);
-  EXPECT_EQ(Finder::open(no_server(), camera(), {}, none).error().code, ErrorCode::timed_out);
+  EXPECT_EQ(GlobalLocalizer::open(no_server(), camera(), {}, none).error().code,
+            ErrorCode::timed_out);
 }
 
 TEST(PublicNames, AreThoseOfTheFixes) {
   EXPECT_STREQ(name_of(FixStatus::off_map), "off-map");
   EXPECT_STREQ(name_of(FixStatus::tracking), "tracking");
-  EXPECT_STREQ(name_of(FinderStatus::lost), "lost");
+  EXPECT_STREQ(name_of(GlobalStatus::lost), "lost");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ RouteLine line() {
 
 testing::IndexedTile tile(double from_m, double to_m) { return {{from_m, to_m}, LandmarkTile{}}; }
 
-// A road of 100 m in five tiles; the fourth is refused and the fifth has not arrived yet.
+// A road of 100 m in five tiles; the fourth has failed and the fifth has not arrived yet.
 HeldMap holed() {
   const std::vector<testing::IndexedTile> tiles = {
       tile(0, 20),

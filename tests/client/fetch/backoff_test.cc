@@ -40,7 +40,7 @@ TEST(Backoff, ABusyServerIsGivenTheTimeItAsksForWithinTheLongest) {
   EXPECT_NEAR(pause_s(backoff, now), 10, 1e-6);
 }
 
-// So that vehicles which lost the same server do not come back together.
+// So that vehicles which lost the same server do not retry in step.
 TEST(Backoff, NoTwoPausesAreAlike) {
   std::mt19937 random(1);
   const BackoffSettings settings = {.first_s = 8, .longest_s = 30, .jitter = 0.25};

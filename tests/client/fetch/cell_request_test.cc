@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 constexpr std::uint32_t kRow = 27800;
 constexpr std::uint32_t kColumn = 37680;
 
-// Cells as on a map, north above: 'x' is missing, 'o' is in the index and not missing, and where
-// there is a '.' the index has no cell. The south-west one is at kRow, kColumn.
+// Cells as on a map, north up: 'x' is missing, 'o' is in the index and not missing, '.' is not in
+// the index. The south-west one is at kRow, kColumn.
 struct Grid {
   std::vector<CellEntry> index;
   std::set<std::uint32_t> missing;
@@ -37,7 +37,8 @@ struct Grid {
     }
   }
 
-  // The number of cells of each request until none is missing. Each must bring missing ones only.
+  // The number of cells of each request until none is missing. Each request must bring missing
+  // cells only.
   std::vector<std::size_t> requests() {
     std::vector<std::size_t> sizes;
     while (!missing.empty()) {

@@ -200,7 +200,7 @@ TEST(MapDocument, EveryWrongFieldIsRefused) {
   const Changes changes = {
       {"another name", [](json& d) { d["name"] = "village"; }},
       {"name with a line break", [](json& d) { d["name"] = "to\nwn"; }},
-      {"build no digest", [](json& d) { d["build"] = "latest"; }},
+      {"build not a digest", [](json& d) { d["build"] = "latest"; }},
       {"layers absent", [](json& d) { d.erase("layers"); }},
       {"layer a number", [](json& d) { d["layers"] = {1}; }},
       {"layer without parameters", [](json& d) { d["layers"] = {"roofs"}; }},
@@ -231,7 +231,7 @@ TEST(NearbyDocument, EveryWrongFieldIsRefused) {
       {"entry a number", [&](json& d) { first(d) = 1; }},
       {"map empty", [&](json& d) { first(d)["map"] = ""; }},
       {"map too long", [&](json& d) { first(d)["map"] = std::string(256, 'm'); }},
-      {"build no digest", [&](json& d) { first(d)["build"] = "b"; }},
+      {"build not a digest", [&](json& d) { first(d)["build"] = "b"; }},
       {"segment a path", [&](json& d) { first(d)["segment"] = "a/b"; }},
       {"along negative", [&](json& d) { first(d)["along_m"] = -0.1; }},
       {"distance negative", [&](json& d) { first(d)["distance_m"] = -0.1; }},

@@ -1,4 +1,4 @@
-// A map of one segment as a server would show it, for tests that make the server misbehave.
+// A map of one segment as served by a server, for tests that make the server misbehave.
 #pragma once
 
 #include <optional>
@@ -39,7 +39,7 @@ class FakeMap {
   // The bytes of the cells that meet the box.
   std::string box_body(const Bounds& box) const;
 
-  // What a good server answers.
+  // The response of a correct server.
   ScriptedAnswer answer(const std::string& target) const;
 
   std::string build = "00112233445566778899aabbccddeeff";
@@ -47,15 +47,15 @@ class FakeMap {
   std::vector<CellEntry> cells;
 };
 
-// An error as a milepost server tells it.
+// An error response of a milepost server.
 ScriptedAnswer problem(int status, const std::string& detail);
 
-// The range or the box that a target asks for; nothing for other targets.
+// The range or box that a target requests; none for other targets.
 std::optional<AlongRange> range_of(const std::string& target);
 std::optional<Bounds> box_of(const std::string& target);
 
 bool is_tile_target(const std::string& target);
-// Whether cells themselves are asked for, not their index.
+// Whether the target requests cells, not their index.
 bool is_cell_target(const std::string& target);
 
 }  // namespace milepost::testing

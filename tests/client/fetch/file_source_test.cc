@@ -24,7 +24,7 @@ Bytes tile_bytes(std::uint32_t index) {
 // The cell at 49 N 8.4 E; there is another to its east.
 constexpr std::uint32_t kCell = 27800 * kCellColumns + 37680;
 
-// The map "town" with two segments that go north, 200 m long, s2 about 73 m to the east of s1.
+// The map "town" with two segments to the north, 200 m long, s2 about 73 m to the east of s1.
 class FileSourceTest : public ::testing::Test {
  protected:
   FileSourceTest() {

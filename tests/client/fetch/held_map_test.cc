@@ -7,7 +7,7 @@
 namespace milepost {
 namespace {
 
-const MapVersion kTown = {"town", "build"};
+const MapVersion kHeldTown = {"town", "build"};
 
 RouteLine line_at(double east_m) {
   const LocalFrame frame({49, 8.4, 0});
@@ -19,17 +19,17 @@ GeoPoint at(double east_m, double north_m) {
   return LocalFrame({49, 8.4, 0}).geo_from_enu({east_m, north_m, 0});
 }
 
-// The road "a" at 0 m east and "b" at 30 m, as told about a place 10 m east and 50 m north.
+// The road "a" at 0 m east and "b" at 30 m, as listed around a position 10 m east and 50 m north.
 HeldMap two_roads() {
-  HeldMap held = testing::held_map(testing::layer_of({kTown, "a"}, line_at(0), {}, {}), {});
+  HeldMap held = testing::held_map(testing::layer_of({kHeldTown, "a"}, line_at(0), {}, {}), {});
   held.segments.merge(
-      testing::held_map(testing::layer_of({kTown, "b"}, line_at(30), {}, {}), {}).segments);
-  held.around = {{kTown, "a", 50, 10, 200}, {kTown, "b", 50, 20, 200}};
+      testing::held_map(testing::layer_of({kHeldTown, "b"}, line_at(30), {}, {}), {}).segments);
+  held.around = {{kHeldTown, "a", 50, 10, 200}, {kHeldTown, "b", 50, 20, 200}};
   held.known_around = {at(10, 50), 100};
   return held;
 }
 
-TEST(HeldMap, TellsSegmentsNearByTheirLines) {
+TEST(HeldMap, FindsSegmentsNearByTheirLines) {
   const auto near = two_roads().segments_near({at(25, 80), 40});
   ASSERT_TRUE(near);
   ASSERT_EQ(near->size(), 2U);
@@ -52,10 +52,10 @@ TEST(HeldMap, DoesNotKnowWhatLiesBeyondItsSurroundings) {
   EXPECT_FALSE(HeldMap().segments_near({at(10, 100), 1}));
 }
 
-// 34 m from where it was told to be 20 m away: 14 m at least.
+// 34 m from where it was listed at 20 m: at least 14 m away.
 TEST(HeldMap, OfASegmentWithoutItsLineKnowsHowNearItMayBe) {
   HeldMap held = two_roads();
-  held.segments[{kTown, "b"}] = std::make_shared<const HeldSegment>();
+  held.segments[{kHeldTown, "b"}] = std::make_shared<const HeldSegment>();
   const auto near = held.segments_near({at(25, 80), 40});
   ASSERT_TRUE(near);
   ASSERT_EQ(near->size(), 2U);

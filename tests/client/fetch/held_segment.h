@@ -1,4 +1,4 @@
-// A map of one segment as it lies in memory, for tests of what looks at it.
+// A map of one segment in memory, for tests of its users.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace milepost::testing {
 
 struct IndexedTile {
   AlongRange along;
-  std::optional<DecodedTile> tile;    // none: it is not held ...
+  std::optional<DecodedTile> tile;    // none: not held ...
   std::optional<Error> failure = {};  // ... and why
 };
 

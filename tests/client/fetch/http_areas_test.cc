@@ -1,4 +1,4 @@
-// The catalog and the cells over HTTP, from a server that a test may make misbehave.
+// The catalog and the cells over HTTP, from a server that can misbehave.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -212,7 +212,7 @@ TEST_F(HttpAreasTest, WithoutAServerAndACacheTheUrlIsNamed) {
 }
 
 TEST_F(HttpAreasTest, TheDocumentsOutliveTheCells) {
-  // Room for the documents and a cell or two: the rest is forgotten again and again.
+  // Space for the documents and one or two cells: the rest is evicted repeatedly.
   cache_limit_bytes_ = map_.areas_document().size() + map_.map_document().size() + 1200;
   const auto source = open_source();
   ASSERT_TRUE(source->describe(map_.version()).ok());

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 class HttpSourceTest : public MisbehavingServerTest {
  protected:
-  // Changes every answer to a tile request.
+  // Modifies every response to a tile request.
   void spoil_tiles(std::function<void(std::string& body)> spoil) {
     spoil_answers(is_tile_target, std::move(spoil));
   }
@@ -143,7 +143,7 @@ TEST_F(HttpSourceTest, AWrongByteIsRefusedAndNotStored) {
 
   spoil_tiles(nullptr);
   expect_tiles(*source, {30, 90}, {1, 2, 3, 4});
-  EXPECT_THAT(tile_requests().back(), HasSubstr("from_m=80&to_m=80"));  // 1 and 2 were good
+  EXPECT_THAT(tile_requests().back(), HasSubstr("from_m=80&to_m=80"));  // 1 and 2 were complete
 }
 
 TEST_F(HttpSourceTest, HostileAnswersAreRefused) {
@@ -239,7 +239,7 @@ TEST_F(HttpSourceTest, WithoutAServerTheCacheAnswers) {
   EXPECT_NEAR(near->front().distance_m, 0.73, 0.01);
   EXPECT_THAT(pauses_s_, IsEmpty());  // no waiting for a server that is not needed
 
-  // Where the cache knows nothing it does not claim that there is nothing.
+  // An empty result of the cache is not reported as an empty list.
   const auto far = source->segments_near({50, 8.4, 0}, 5);
   ASSERT_FALSE(far.ok());
   EXPECT_EQ(far.error().code, ErrorCode::unavailable);
@@ -279,7 +279,7 @@ TEST_F(HttpSourceTest, WhatTheServerSaysRenewsWhatIsKnown) {
   ASSERT_TRUE(source->segment(map_.version(), "s1").ok());
   answer_next("/v1/segments?", {{.status = 503}});
   EXPECT_TRUE(source->segments_near(position, 50).ok());
-  // Another process puts a newer build into the cache, which this one then hears of.
+  // Another process stores a newer build in the cache, which becomes known here later.
   map_.build = std::string(32, 'b');
   now_s_ += 6;
   ASSERT_TRUE(open_source()->segment(map_.version(), "s1").ok());

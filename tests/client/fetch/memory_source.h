@@ -1,4 +1,4 @@
-// A map source whose tiles lie in memory, which can be made to fail as servers do.
+// A map source with tiles in memory, which can be made to fail like a server.
 #pragma once
 
 #include <atomic>
@@ -15,8 +15,8 @@
 
 namespace milepost::testing {
 
-// One map with one layer. Every tile has to be fetched, unless it is stored. All members may be
-// called from any thread.
+// One map with one layer. Every tile has to be fetched, unless it is stored. All members are safe
+// to call from any thread.
 class MemorySource : public MapSource, public std::enable_shared_from_this<MemorySource> {
  public:
   struct Tile {
@@ -27,18 +27,18 @@ class MemorySource : public MapSource, public std::enable_shared_from_this<Memor
   MemorySource(MapVersion version, std::string layer, nlohmann::json layer_parameters);
 
   void add(const SegmentDescription& segment, std::vector<Tile> tiles);
-  // The map as it is is gone.
+  // Replaces the current build.
   void build_anew(const std::string& build);
-  // Tiles cannot be fetched, or can be again.
+  // Makes tiles unavailable, or available again.
   void be_unavailable(bool unavailable = true) { is_unavailable_ = unavailable; }
-  // A request for this tile fails.
+  // Makes requests for this tile fail.
   void refuse_tile(std::uint32_t index);
-  // The tiles are in the cache.
+  // Stores the tiles in the cache.
   void store_tiles() { is_stored_ = true; }
-  // Calls that fetch wait until they are let go, or stopped.
+  // Makes calls that fetch block until they are released or stopped.
   void block(bool blocked = true) { is_blocked_ = blocked; }
 
-  // The threads that ever called, and how many calls there were for tiles and for documents.
+  // The threads that have called, and the numbers of tile and document requests.
   std::set<std::thread::id> callers() const;
   int tile_requests() const { return tile_requests_; }
   int document_requests() const { return document_requests_; }
@@ -79,7 +79,7 @@ class MemorySource : public MapSource, public std::enable_shared_from_this<Memor
 
   const std::string layer_;
   const nlohmann::json layer_parameters_;
-  mutable std::mutex mutex_;  // guards all below but what is atomic
+  mutable std::mutex mutex_;  // guards all below except atomics
   MapVersion version_;
   std::map<std::string, Road> roads_;
   std::set<std::uint32_t> refused_;

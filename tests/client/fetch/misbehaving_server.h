@@ -1,4 +1,4 @@
-// A server with the fake map, which a test may make misbehave, and sources that do not wait.
+// A server with the fake map that can misbehave, and sources that do not wait.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -38,28 +38,29 @@ class MisbehavingServerTest : public ::testing::Test {
     return std::move(source).value();
   }
 
-  // Answers the next requests whose target `matches`, one after the other, before the map does.
+  // Gives these responses to the next requests whose target `matches`, before the map answers
+  // again.
   void answer_next(const std::string& matches, std::vector<ScriptedAnswer> answers) {
     const std::lock_guard lock(mutex_);
     special_target_ = matches;
     special_answers_ = std::move(answers);
   }
 
-  // Answers everything, but "/loop" by a redirect to itself and "/login" by a page; nothing: the
-  // map answers again.
+  // Gives this response to everything, except "/loop" (a redirect to itself) and "/login" (a page);
+  // none: the map answers again.
   void answer_all(std::optional<ScriptedAnswer> answer) {
     const std::lock_guard lock(mutex_);
     answer_to_all_ = std::move(answer);
   }
 
-  // Changes every answer to a request of that kind.
+  // Modifies every response to requests of that kind.
   void spoil_answers(IsTarget kind, std::function<void(std::string& body)> spoil) {
     const std::lock_guard lock(mutex_);
     spoilt_kind_ = kind;
     spoil_ = std::move(spoil);
   }
 
-  // The targets of that kind that were asked for.
+  // The requested targets of that kind.
   std::vector<std::string> requests(IsTarget kind) const {
     std::vector<std::string> targets = server_.requests();
     std::erase_if(targets, [kind](const std::string& target) { return !kind(target); });

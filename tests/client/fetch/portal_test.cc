@@ -1,4 +1,4 @@
-// What a vehicle does in a network that answers in the server's place: with a login page, say.
+// The client in a network that answers in the server's place, with a login page for example.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -16,15 +16,15 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr Bounds kEverything{8, 48, 9, 50};
+constexpr Bounds kWholeMap{8, 48, 9, 50};
 const GeoPoint kPosition{49.0001, 8.4, 0};
 const char* const kPage = "<!DOCTYPE html><html><body>Welcome! Please log in.</body></html>";
 
-// One way to answer everything but the map, and what the user is told of it.
+// A foreign response to every request, and the reported error.
 struct Portal {
   std::string name;
   ScriptedAnswer answer;
-  std::string told = "no milepost server answered";
+  std::string told = "something other than a milepost server answered";
 };
 
 ScriptedAnswer typed(int status, std::string body, const std::string& type) {
@@ -67,15 +67,15 @@ std::vector<Portal> portals() {
 
 class PortalTest : public MisbehavingServerTest {
  protected:
-  // What the vehicle needs of a map, into the cache.
+  // Loads the map data that the vehicle needs into the cache.
   void warm_the_cache() {
     const auto source = open_source();
     ASSERT_TRUE(source->describe(map_.version()).ok());
     ASSERT_TRUE(source->tiles(map_.version(), "s1", "tracklets", {0, 100}).ok());
-    ASSERT_TRUE(source->cells(map_.version(), "walls", kEverything).ok());
+    ASSERT_TRUE(source->cells(map_.version(), "walls", kWholeMap).ok());
   }
 
-  // Everything that was cached is there.
+  // Expects that everything cached is found.
   void expect_all(MapSource& source) const {
     const auto near = source.segments_near(kPosition, 50);
     ASSERT_TRUE(near.ok()) << near.error().line();
@@ -94,17 +94,17 @@ class PortalTest : public MisbehavingServerTest {
     const auto tiles = source.tiles(map_.version(), "s1", "tracklets", {0, 100});
     ASSERT_TRUE(tiles.ok()) << tiles.error().line();
     for (const EncodedTile& tile : *tiles) EXPECT_EQ(tile.bytes, map_.encoded_tile(tile.index));
-    const auto cells = source.cells(map_.version(), "walls", kEverything);
+    const auto cells = source.cells(map_.version(), "walls", kWholeMap);
     ASSERT_TRUE(cells.ok()) << cells.error().line();
     EXPECT_EQ(cells->size(), map_.cells.size());
   }
 
-  // Whether an error says which address it was, what answered there and what to do.
+  // Expects an error with the address, the kind of response and a hint.
   static void expect_told(const Error& error, const std::string& address, const Portal& portal) {
     EXPECT_EQ(error.code, ErrorCode::unavailable);
     EXPECT_THAT(error.line(), HasSubstr(address));
     EXPECT_THAT(error.line(), HasSubstr(portal.told));
-    EXPECT_FALSE(error.mend.empty());
+    EXPECT_FALSE(error.hint.empty());
     EXPECT_LT(error.line().size(), 600U);
   }
 
@@ -121,7 +121,7 @@ class PortalTest : public MisbehavingServerTest {
   }
 };
 
-TEST_F(PortalTest, WithAWarmCacheItIsAsGoodAsNoNetwork) {
+TEST_F(PortalTest, WithAWarmCacheItIsLikeNoNetwork) {
   warm_the_cache();
   const std::int64_t entries = entries_of_the_cache();
   for (const Portal& portal : portals()) {
@@ -129,7 +129,7 @@ TEST_F(PortalTest, WithAWarmCacheItIsAsGoodAsNoNetwork) {
     answer_all(portal.answer);
     const auto source = open_source();
     expect_all(*source);
-    // The segments near and the catalog are asked for once, not at every frame.
+    // The nearby segments and the catalog are requested once, not at every frame.
     const std::uint64_t asked = source->counters().requests;
     EXPECT_LE(asked, 2U);
     for (int frame = 0; frame < 10; ++frame) expect_all(*source);
@@ -151,7 +151,7 @@ TEST_F(PortalTest, WithAColdCacheTheUserIsToldWhatAnswered) {
     expect_told(source->maps().error(), server_.url() + "/v1/maps", portal);
     expect_told(source->describe(map_.version()).error(), server_.url() + "/v1/maps/town", portal);
     expect_told(source->segment(map_.version(), "s1").error(), "/segments/s1", portal);
-    expect_told(source->cells(map_.version(), "walls", kEverything).error(), "/areas", portal);
+    expect_told(source->cells(map_.version(), "walls", kWholeMap).error(), "/areas", portal);
     answer_all(std::nullopt);
   }
   EXPECT_EQ(entries_of_the_cache(), 0);
@@ -202,7 +202,7 @@ TEST_F(PortalTest, TheServersOwnRefusalsKeepTheirMeaning) {
   EXPECT_EQ(source->segment(map_.version(), "s9").error().code, ErrorCode::not_found);
 }
 
-// A document nested so deep that walking through it would exhaust the stack.
+// A document nested so deeply that recursing through it would exhaust the stack.
 TEST_F(PortalTest, ADeepMapDocumentIsNoAnswer) {
   for (const std::string member : {"\"feature\":", "\"more\":"}) {
     std::string deep = map_.map_document();
@@ -220,7 +220,7 @@ TEST_F(PortalTest, ADeepMapDocumentIsNoAnswer) {
 
 TEST_F(PortalTest, ADeepDocumentInTheCacheIsFetchedAgain) {
   warm_the_cache();
-  // With its digest: as a program of an earlier version may have stored it.
+  // With its digest, as stored by an earlier version.
   const std::string deep = nested(1000000);
   const auto cache = std::move(TileCache::open({.folder = cache_.path()})).value();
   cache->store(CacheKey::map_document("town", map_.build), as_bytes(deep));

@@ -10,15 +10,15 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const MapVersion kTown = {"town", "build"};
-const SegmentKey kRoad = {kTown, "road"};
+const MapVersion kStateTown = {"town", "build"};
+const SegmentKey kStateRoad = {kStateTown, "road"};
 constexpr double kTileM = 20;
 constexpr double kLengthM = 400;
 
 GeoPoint at(double north_m) { return LocalFrame({49, 8.4, 0}).geo_from_enu({0, north_m, 0}); }
 
 // 400 m in tiles of 20 m.
-std::shared_ptr<const SegmentLayer> road(const SegmentKey& key = kRoad) {
+std::shared_ptr<const SegmentLayer> road(const SegmentKey& key = kStateRoad) {
   std::vector<testing::IndexedTile> tiles;
   for (double from_m = 0; from_m < kLengthM; from_m += kTileM) {
     tiles.push_back({{from_m + 1, from_m + kTileM - 1}, std::nullopt});
@@ -39,28 +39,29 @@ class StateOfAProvider : public ::testing::Test {
     return settings;
   }
 
-  // What is wanted on the road.
+  // Sets the wanted ranges of the road.
   void want(std::vector<std::pair<AlongRange, int>> ranges) {
     Wants wants;
     wants.around = around_;
-    for (const auto& [range, priority] : ranges) wants.tiles.push_back({kRoad, range, priority});
+    for (const auto& [range, priority] : ranges)
+      wants.tiles.push_back({kStateRoad, range, priority});
     state_.want(std::move(wants));
   }
 
-  // The road's documents are there.
+  // Provides the road's documents.
   void open() {
     want({{{0, 1}, 0}});
     state_.take(road());
   }
 
-  // Nothing of what is wanted lies in the cache.
+  // Reports that no wanted tile is in the cache.
   void find_nothing_stored() {
     while (const auto stored = state_.next_stored()) {
       state_.is_not_stored(stored->of->key, stored->entry.index);
     }
   }
 
-  // The indices of the tiles to be fetched next; none where something else is to be done.
+  // The indices of the tiles to be fetched next; none if the next task is another.
   std::vector<std::uint32_t> next_run() const {
     std::vector<std::uint32_t> run;
     const auto task = state_.next_fetch(now_);
@@ -92,10 +93,10 @@ TEST_F(StateOfAProvider, AsksAroundThenForDocumentsThenForTiles) {
   ASSERT_TRUE(task && std::holds_alternative<AskAround>(*task));
   EXPECT_EQ(std::get<AskAround>(*task).asked.radius_m, 50 + settings().surroundings_margin_m);
   EXPECT_FALSE(state_.is_settled());
-  state_.take(std::get<AskAround>(*task), {{kTown, "road", 100, 3, kLengthM}}, now_);
+  state_.take(std::get<AskAround>(*task), {{kStateTown, "road", 100, 3, kLengthM}}, now_);
   task = state_.next_fetch(now_);
   ASSERT_TRUE(task && std::holds_alternative<ReadDocuments>(*task));
-  EXPECT_EQ(std::get<ReadDocuments>(*task).key, kRoad);
+  EXPECT_EQ(std::get<ReadDocuments>(*task).key, kStateRoad);
   EXPECT_FALSE(state_.is_settled());
   state_.take(road());
   EXPECT_TRUE(state_.is_settled());  // no tile is wanted
@@ -125,9 +126,9 @@ TEST_F(StateOfAProvider, WhatIsStoredIsReadAndNotFetched) {
   ASSERT_TRUE(stored);
   EXPECT_EQ(stored->entry.index, 2U);
   EXPECT_EQ(next_run(), Indices{});
-  state_.take(kRoad, 2, a_tile());
+  state_.take(kStateRoad, 2, a_tile());
   EXPECT_EQ(state_.next_stored()->entry.index, 3U);
-  EXPECT_TRUE(state_.held()->find(kRoad)->tiles.contains(2));
+  EXPECT_TRUE(state_.held()->find(kStateRoad)->tiles.contains(2));
 }
 
 TEST_F(StateOfAProvider, TheFirstPriorityComesFirst) {
@@ -136,28 +137,28 @@ TEST_F(StateOfAProvider, TheFirstPriorityComesFirst) {
   EXPECT_EQ(state_.next_stored()->entry.index, 10U);
   find_nothing_stored();
   EXPECT_EQ(next_run(), Indices{10});
-  state_.take(kRoad, 10, a_tile());
+  state_.take(kStateRoad, 10, a_tile());
   EXPECT_EQ(next_run().front(), 2U);
 }
 
-TEST_F(StateOfAProvider, LetsGoOfWhatIsFarFromWhatIsWanted) {
+TEST_F(StateOfAProvider, DiscardsWhatIsFarFromWhatIsWanted) {
   open();
   want({{{50, 110}, 0}});
-  for (std::uint32_t i = 2; i <= 5; ++i) state_.take(kRoad, i, a_tile());
+  for (std::uint32_t i = 2; i <= 5; ++i) state_.take(kStateRoad, i, a_tile());
   want({{{120, 130}, 0}});  // tiles from 80 m on are kept
-  const auto& tiles = state_.held()->find(kRoad)->tiles;
+  const auto& tiles = state_.held()->find(kStateRoad)->tiles;
   EXPECT_FALSE(tiles.contains(3));
   EXPECT_TRUE(tiles.contains(4));
   state_.want({});
-  EXPECT_EQ(state_.held()->find(kRoad), nullptr);
+  EXPECT_EQ(state_.held()->find(kStateRoad), nullptr);
 }
 
 TEST_F(StateOfAProvider, ATileThatCameTooLateIsNotKept) {
   open();
   want({{{50, 55}, 0}});
   want({{{350, 355}, 0}});
-  state_.take(kRoad, 2, a_tile());
-  EXPECT_TRUE(state_.held()->find(kRoad)->tiles.empty());
+  state_.take(kStateRoad, 2, a_tile());
+  EXPECT_TRUE(state_.held()->find(kStateRoad)->tiles.empty());
 }
 
 TEST_F(StateOfAProvider, ARefusedTileStopsNoOther) {
@@ -176,15 +177,15 @@ TEST_F(StateOfAProvider, ARefusedTileStopsNoOther) {
       fail_next();
       continue;
     }
-    for (const std::uint32_t index : run) state_.take(kRoad, index, a_tile());
+    for (const std::uint32_t index : run) state_.take(kStateRoad, index, a_tile());
     state_.succeeded(task);
   }
-  const HeldSegment& held = *state_.held()->find(kRoad);
+  const HeldSegment& held = *state_.held()->find(kStateRoad);
   EXPECT_EQ(held.tiles.size(), 7U);
   ASSERT_TRUE(held.missing.contains(5));
   EXPECT_EQ(held.missing.size(), 1U);
   EXPECT_TRUE(state_.is_settled());
-  // It is asked for again, later each time, and what is wanted beside it at once.
+  // It is requested again with growing pauses, and other wanted tiles at once.
   now_ += seconds(20);
   EXPECT_EQ(next_run(), Indices{5});
   fail_next();
@@ -198,12 +199,12 @@ TEST_F(StateOfAProvider, ATileThatComesAtLastIsMissingNoMore) {
   want({{{50, 55}, 0}});
   find_nothing_stored();
   fail_next();
-  EXPECT_TRUE(state_.held()->find(kRoad)->missing.contains(2));
+  EXPECT_TRUE(state_.held()->find(kStateRoad)->missing.contains(2));
   EXPECT_EQ(next_run(), Indices{});
   now_ += seconds(2);
   EXPECT_EQ(next_run(), Indices{2});
-  state_.take(kRoad, 2, a_tile());
-  EXPECT_FALSE(state_.held()->find(kRoad)->missing.contains(2));
+  state_.take(kStateRoad, 2, a_tile());
+  EXPECT_FALSE(state_.held()->find(kStateRoad)->missing.contains(2));
 }
 
 TEST_F(StateOfAProvider, ANetworkThatIsAwayIsNotWaitedFor) {
@@ -212,42 +213,42 @@ TEST_F(StateOfAProvider, ANetworkThatIsAwayIsNotWaitedFor) {
   find_nothing_stored();
   fail_next(seconds(10));  // a request that stalls
   EXPECT_TRUE(state_.is_settled());
-  want({{{100, 259}, 0}});  // tiles that were never asked for
+  want({{{100, 259}, 0}});  // tiles that were never requested
   find_nothing_stored();
   EXPECT_TRUE(state_.is_settled());
   EXPECT_EQ(next_run(), Indices{});
   now_ += seconds(2);
   const FetchTask task = *state_.next_fetch(now_);
   for (const TileEntry& entry : std::get<FetchTiles>(task).tiles) {
-    state_.take(kRoad, entry.index, a_tile());
+    state_.take(kStateRoad, entry.index, a_tile());
   }
   state_.succeeded(task);
-  EXPECT_FALSE(state_.is_settled());  // it is back, and the rest is waited for
+  EXPECT_FALSE(state_.is_settled());  // the network is back, and the rest is awaited
 }
 
 TEST_F(StateOfAProvider, DocumentsThatFailAreAskedForAgain) {
   want({{{0, 10}, 0}});
   fail_next(milliseconds(10), ErrorCode::corrupt);
   EXPECT_TRUE(state_.is_settled());
-  ASSERT_TRUE(state_.held()->find(kRoad)->failure);
+  ASSERT_TRUE(state_.held()->find(kStateRoad)->failure);
   EXPECT_FALSE(state_.next_fetch(now_));
   now_ = *state_.next_due(now_);
   ASSERT_TRUE(state_.next_fetch(now_));
   state_.take(road());
-  EXPECT_FALSE(state_.held()->find(kRoad)->failure);
+  EXPECT_FALSE(state_.held()->find(kStateRoad)->failure);
 }
 
 TEST_F(StateOfAProvider, ABuildThatIsGoneIsGivenUpAndLookedUpAnew) {
   around_ = Surroundings{at(100), 50};
   want({});
-  state_.take(std::get<AskAround>(*state_.next_fetch(now_)), {{kTown, "road", 100, 3, kLengthM}},
-              now_);
+  state_.take(std::get<AskAround>(*state_.next_fetch(now_)),
+              {{kStateTown, "road", 100, 3, kLengthM}}, now_);
   state_.take(road());
   want({{{90, 95}, 0}});
   find_nothing_stored();
   fail_next(milliseconds(10), ErrorCode::gone);
-  ASSERT_TRUE(state_.held()->find(kRoad)->failure);
-  EXPECT_EQ(state_.held()->find(kRoad)->failure->code, ErrorCode::gone);
+  ASSERT_TRUE(state_.held()->find(kStateRoad)->failure);
+  EXPECT_EQ(state_.held()->find(kStateRoad)->failure->code, ErrorCode::gone);
   EXPECT_FALSE(state_.held()->segments_near({at(100), 50}));
   const auto task = state_.next_fetch(now_);
   ASSERT_TRUE(task && std::holds_alternative<AskAround>(*task));
@@ -261,8 +262,8 @@ TEST_F(StateOfAProvider, ABuildThatIsGoneIsGivenUpAndLookedUpAnew) {
 TEST_F(StateOfAProvider, WhatIsUnusableIsMissingAndSettled) {
   open();
   want({{{50, 55}, 0}});
-  state_.is_unusable(kRoad, 2, Error{ErrorCode::corrupt, "tile 2", "is damaged", ""}, now_);
-  EXPECT_EQ(state_.held()->find(kRoad)->missing.at(2).code, ErrorCode::corrupt);
+  state_.is_unusable(kStateRoad, 2, Error{ErrorCode::corrupt, "tile 2", "is damaged", ""}, now_);
+  EXPECT_EQ(state_.held()->find(kStateRoad)->missing.at(2).code, ErrorCode::corrupt);
   EXPECT_TRUE(state_.is_settled());
   EXPECT_FALSE(state_.next_stored());
 }
@@ -272,18 +273,18 @@ TEST_F(StateOfAProvider, WhatIsHeldIsTheSameObjectUntilItChanges) {
   const auto before = state_.held();
   want({{{0, 5}, 0}});
   EXPECT_EQ(state_.held(), before);
-  state_.take(kRoad, 0, a_tile());
+  state_.take(kStateRoad, 0, a_tile());
   EXPECT_NE(state_.held(), before);
 }
 
-// A server that has not heard of it yet names the build that is gone: it is asked again, later.
+// A server that is out of date lists the build that is gone: it is asked again later.
 TEST_F(StateOfAProvider, ABuildThatIsGoneIsNotTakenUpAgain) {
   around_ = Surroundings{at(100), 50};
   want({});
   const auto ask = [&] {
     const auto task = state_.next_fetch(now_);
     ASSERT_TRUE(task && std::holds_alternative<AskAround>(*task));
-    state_.take(std::get<AskAround>(*task), {{kTown, "road", 100, 3, kLengthM}}, now_);
+    state_.take(std::get<AskAround>(*task), {{kStateTown, "road", 100, 3, kLengthM}}, now_);
   };
   ask();
   state_.take(road());
@@ -294,12 +295,12 @@ TEST_F(StateOfAProvider, ABuildThatIsGoneIsNotTakenUpAgain) {
   want({{{90, 95}, 0}});
   EXPECT_FALSE(state_.next_fetch(now_));  // not at once
   EXPECT_TRUE(state_.is_settled());
-  EXPECT_EQ(state_.held()->find(kRoad)->failure->code, ErrorCode::gone);
+  EXPECT_EQ(state_.held()->find(kStateRoad)->failure->code, ErrorCode::gone);
   now_ = *state_.next_due(now_);
   ask();
 }
 
-// Of more segments than lines are read of, those that may be the nearest by now.
+// If there are more segments than lines to read, those that may be the nearest now.
 TEST_F(StateOfAProvider, ReadsTheLinesOfTheNearestSegments) {
   ProviderSettings few = settings();
   few.max_segments = 2;
@@ -309,7 +310,7 @@ TEST_F(StateOfAProvider, ReadsTheLinesOfTheNearestSegments) {
   want({});
   std::vector<NearbySegment> told;
   for (const double distance_m : {10.0, 50.0, 90.0, 600.0, 620.0, 900.0}) {
-    told.push_back({kTown, "s" + std::to_string(told.size()), 0, distance_m, kLengthM});
+    told.push_back({kStateTown, "s" + std::to_string(told.size()), 0, distance_m, kLengthM});
   }
   state_.take(std::get<AskAround>(*state_.next_fetch(now_)), told, now_);
   const auto next_document = [&]() -> std::string {
@@ -318,11 +319,11 @@ TEST_F(StateOfAProvider, ReadsTheLinesOfTheNearestSegments) {
     return documents ? documents->key.segment : "none";
   };
   EXPECT_EQ(next_document(), "s0");
-  state_.take(road({kTown, "s0"}));
+  state_.take(road({kStateTown, "s0"}));
   EXPECT_EQ(next_document(), "s1");
-  state_.take(road({kTown, "s1"}));
+  state_.take(road({kStateTown, "s1"}));
   EXPECT_EQ(next_document(), "none");
-  around_ = Surroundings{at(615), 100};  // still within what was told
+  around_ = Surroundings{at(615), 100};  // still within the known surroundings
   want({});
   EXPECT_FALSE(state_.is_settled());
   EXPECT_EQ(next_document(), "s4");
@@ -332,17 +333,17 @@ TEST_F(StateOfAProvider, WhatIsWantedComesBeforeTheLinesOfNeighbours) {
   around_ = Surroundings{at(100), 50};
   want({});
   state_.take(std::get<AskAround>(*state_.next_fetch(now_)),
-              {{kTown, "a", 100, 3, kLengthM}, {kTown, "road", 100, 5, kLengthM}}, now_);
+              {{kStateTown, "a", 100, 3, kLengthM}, {kStateTown, "road", 100, 5, kLengthM}}, now_);
   want({{{90, 95}, 0}});
-  EXPECT_EQ(std::get<ReadDocuments>(*state_.next_fetch(now_)).key, kRoad);
+  EXPECT_EQ(std::get<ReadDocuments>(*state_.next_fetch(now_)).key, kStateRoad);
   state_.take(road());
   find_nothing_stored();
   EXPECT_EQ(next_run(), Indices{4});
-  state_.take(kRoad, 4, a_tile());
+  state_.take(kStateRoad, 4, a_tile());
   EXPECT_EQ(std::get<ReadDocuments>(*state_.next_fetch(now_)).key.segment, "a");
 }
 
-// What failed long ago says nothing of now.
+// Old failures do not show that the network is unavailable now.
 TEST_F(StateOfAProvider, ANetworkThatWasNotAskedSinceIsNotAway) {
   open();
   want({{{0, 39}, 0}});
@@ -358,10 +359,10 @@ TEST_F(StateOfAProvider, ATileThatCannotBeUsedIsNotFetchedAgain) {
   open();
   want({{{50, 55}, 0}});
   find_nothing_stored();
-  state_.is_unusable(kRoad, 2, Error{ErrorCode::corrupt, "tile 2", "no tile", ""}, now_);
+  state_.is_unusable(kStateRoad, 2, Error{ErrorCode::corrupt, "tile 2", "no tile", ""}, now_);
   now_ += seconds(3600);
   EXPECT_EQ(next_run(), Indices{});
-  // Nor is one that was refused forgotten because it is not wanted for a moment.
+  // A failed tile is also remembered while it is not wanted for a moment.
   want({{{90, 95}, 0}});
   find_nothing_stored();
   fail_next();
@@ -373,7 +374,7 @@ TEST_F(StateOfAProvider, ATileThatCannotBeUsedIsNotFetchedAgain) {
 TEST_F(StateOfAProvider, NothingIsFetchedWhileSomeMayBeStored) {
   open();
   want({{{50, 90}, 0}});
-  state_.is_not_stored(kRoad, 2);
+  state_.is_not_stored(kStateRoad, 2);
   EXPECT_EQ(next_run(), Indices{});
   find_nothing_stored();
   EXPECT_EQ(next_run(), (Indices{2, 3, 4}));

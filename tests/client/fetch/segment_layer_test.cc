@@ -18,8 +18,9 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const Codebook& codebook() {
-  static const Codebook trained = Codebook::trained(testing::unlike_descriptors(8, 1), 0.01);
+const PcaProjection& codebook() {
+  static const PcaProjection trained =
+      PcaProjection::trained(testing::unlike_descriptors(8, 1), 0.01);
   return trained;
 }
 
@@ -75,12 +76,12 @@ TEST(SegmentLayer, OfLandmarksWithoutASoundCodebookIsCorrupt) {
     break_it(parameters);
     EXPECT_THAT(message(parameters),
                 AllOf(HasSubstr("map 'town', layer 'tracklets'"), HasSubstr("codebook"),
-                      HasSubstr("build the map anew"), Not(HasSubstr("\n"))));
+                      HasSubstr("rebuild the map"), Not(HasSubstr("\n"))));
   }
 }
 
 TEST(SegmentLayer, OfBrokenParametersIsCorrupt) {
-  EXPECT_THAT(message("landmarks"), HasSubstr("no JSON object"));
+  EXPECT_THAT(message("landmarks"), HasSubstr("not a JSON object"));
   nlohmann::json parameters = sound_parameters();
   parameters["items"] = "houses";
   EXPECT_THAT(message(parameters), HasSubstr("items"));

@@ -1,4 +1,4 @@
-// The client against the server itself: what one sends is what the other expects.
+// The client with the real server: both sides agree on the protocol.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,13 +26,13 @@ Bytes tile_bytes(std::uint32_t index) {
   return Bytes(5000 + index, static_cast<std::uint8_t>(index));
 }
 
-// Two walls in one cell, one across the border to the next, and one in that.
+// Two walls in one cell, one across the border to the next cell, and one in that.
 const std::vector<Wall> kWalls = {{{49.001, 8.401}, {49.001, 8.402}, 0.25},
                                   {{49.001, 8.402}, {49.002, 8.402}, 0.25},
                                   {{49.003, 8.4049}, {49.003, 8.4051}, 0.5},
                                   {{49.004, 8.407}, {49.004, 8.408}, 0.25}};
 
-// A map with lengths that no decimal number is exactly, written as a mapper would.
+// A map with lengths that are not exact decimal numbers, written as by a mapper.
 std::string write_map(const std::filesystem::path& file) {
   auto writer = MapWriter::create(file);
   EXPECT_TRUE(writer.ok());

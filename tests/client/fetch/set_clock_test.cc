@@ -1,5 +1,5 @@
-// The time of day is set while a source is in use. This program's own clock_gettime takes the place
-// of the C library's, so that the library under test reads clocks that the test moves.
+// The system time is changed while a source is in use. This program's own clock_gettime replaces
+// the C library's, so that the library under test reads clocks controlled by the test.
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <time.h>

@@ -17,7 +17,7 @@ ExpectedTile expected(std::uint32_t number) {
   return {number, kTileBytes, digest_of(tile_of(number))};
 }
 
-// Tiles 1, 2 and 3 come in one answer, whichever is asked for, and it breaks off.
+// Tiles 1, 2 and 3 come in one response, whichever is requested, and it is interrupted.
 class FetchingTiles : public ::testing::Test {
  protected:
   Result<std::map<std::uint32_t, Bytes>> fetch(const std::vector<ExpectedTile>& wanted) {
@@ -42,8 +42,8 @@ class FetchingTiles : public ::testing::Test {
   TileFetcher fetcher_{requests_, *cache_};
 };
 
-// Tile 1 only comes along: an answer that breaks off after it brought nothing that was missing,
-// however often it comes.
+// Tile 1 is not requested: a response interrupted after it brought nothing that was missing,
+// however often it is repeated.
 TEST_F(FetchingTiles, WhatOnlyComesAlongIsNoProgress) {
   break_off_after_ = kTileBytes + 10;
   const auto tiles = fetch({expected(2), expected(3)});

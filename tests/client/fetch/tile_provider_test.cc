@@ -18,17 +18,17 @@ const MapVersion kTown = {"town", "build"};
 const SegmentKey kRoad = {kTown, "road"};
 constexpr std::uint32_t kTiles = 10;  // of 20 m
 
-GeoPoint at(double north_m) { return LocalFrame({49, 8.4, 0}).geo_from_enu({0, north_m, 0}); }
+GeoPoint place_at(double north_m) { return LocalFrame({49, 8.4, 0}).geo_from_enu({0, north_m, 0}); }
 
 std::shared_ptr<testing::MemorySource> a_map() {
   auto map = std::make_shared<testing::MemorySource>(
       kTown, "wisurf", nlohmann::json{{"items", "frames"}, {"focal_px", {400, 400}}});
   std::vector<testing::MemorySource::Tile> tiles;
   for (std::uint32_t i = 0; i < kTiles; ++i) {
-    const FrameTile tile{"road", i, {{20.0 * i + 5, {}, ImageDescriptor{}}}};
+    const ImageDescriptorTile tile{"road", i, {{20.0 * i + 5, {}, ImageDescriptor{}}}};
     tiles.push_back({{20.0 * i + 1, 20.0 * i + 19}, encode_frames(tile)});
   }
-  map->add({"road", 200, {at(0), at(200)}, {}}, std::move(tiles));
+  map->add({"road", 200, {place_at(0), place_at(200)}, {}}, std::move(tiles));
   return map;
 }
 
@@ -40,7 +40,7 @@ ProviderSettings soon_again() {
 
 Wants wants_of(const AlongRange& range) {
   Wants wants;
-  wants.around = Surroundings{at(50), 30};
+  wants.around = Surroundings{place_at(50), 30};
   wants.tiles = {{kRoad, range}};
   return wants;
 }
@@ -68,8 +68,9 @@ TEST(TileProvider, BringsWhatIsWanted) {
   const auto held = provider.held();
   ASSERT_NE(held->find(kRoad), nullptr);
   EXPECT_EQ(held->find(kRoad)->tiles.size(), 4U);
-  EXPECT_EQ(std::get<FrameTile>(*held->find(kRoad)->tiles.at(2)).frames.front().along_m, 45);
-  EXPECT_EQ(held->segments_near({at(60), 30})->front().segment, "road");
+  EXPECT_EQ(std::get<ImageDescriptorTile>(*held->find(kRoad)->tiles.at(2)).frames.front().along_m,
+            45);
+  EXPECT_EQ(held->segments_near({place_at(60), 30})->front().segment, "road");
 }
 
 TEST(TileProvider, EachDocumentIsReadOnceAndTilesInOneRequest) {
@@ -103,7 +104,7 @@ TEST(TileProvider, NoCallWaitsForASourceThatHangs) {
     EXPECT_TRUE(provider.held()->segments.size() <= 1);
     EXPECT_FALSE(provider.is_settled());
   }
-  // A thousand calls against a source that never answers: a lock held over I/O would never end.
+  // A thousand calls while the source hangs: a lock held during I/O would block forever.
   EXPECT_LT(steady_clock::now() - began, seconds(10));
   map->block(false);
   settle(provider);
@@ -116,7 +117,7 @@ TEST(TileProvider, WhatIsStoredComesWhileTheNetworkHangs) {
   provider.want(wants_of({0, 10}));
   settle(provider);
   map->block();
-  provider.want(wants_of({0, 50}));  // is asked for, and hangs
+  provider.want(wants_of({0, 50}));  // is requested, and hangs
   while (map->tile_requests() < 2) std::this_thread::sleep_for(milliseconds(1));
   map->store_tiles();
   provider.want(wants_of({100, 190}));

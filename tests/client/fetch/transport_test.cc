@@ -35,11 +35,12 @@ class TransportTest : public ::testing::Test {
     return answer.status.ok() ? Error{} : answer.status.error();
   }
 
-  // The answer is taken for that of something else than a milepost server, and the user is told so.
+  // Expects that the response is attributed to something other than a milepost server, and reported
+  // so.
   static void expect_foreign(const HttpAnswer& answer, const std::string& detail) {
     const Error error = error_of(answer);
     EXPECT_EQ(error.code, ErrorCode::unavailable);
-    EXPECT_THAT(error.line(), HasSubstr("no milepost server answered"));
+    EXPECT_THAT(error.line(), HasSubstr("something other than a milepost server answered"));
     EXPECT_THAT(error.line(), HasSubstr(detail));
     EXPECT_THAT(error.line(), HasSubstr("log in to the network"));
   }
@@ -85,7 +86,7 @@ TEST_F(TransportTest, FollowsNoLoopOfRedirects) {
 
 TEST_F(TransportTest, FollowsNoRedirectToAFile) {
   answer_ = {.status = 301, .headers = {{"Location", "file:///etc/hostname"}}};
-  expect_foreign(get("/"), "Protocol");  // refused, not tried in vain
+  expect_foreign(get("/"), "Protocol");  // rejected, not attempted
 }
 
 TEST_F(TransportTest, FollowsNoRedirectToNowhere) {

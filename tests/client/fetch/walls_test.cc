@@ -32,7 +32,7 @@ const Wall kInBoth = wall(2, 4.9, 2, 5.1);
 
 class WallsTest : public ::testing::Test {
  protected:
-  // A map file of a layer with those cells, opened.
+  // An opened map file of a layer with the given cells.
   std::shared_ptr<MapSource> map_of(const std::string& layer,
                                     const std::vector<EncodedCell>& cells) {
     auto writer = MapWriter::create(folder_ / "town.map");

@@ -13,23 +13,23 @@
 namespace milepost {
 namespace {
 
-// Wheels and camera poses tell the same: a point ahead and to the right, before and after a turn.
+// Odometry and camera poses agree: a point ahead and to the right, before and after a turn.
 TEST(CameraMotion, IsThatOfALevelCamera) {
-  const WheelMotion wheels{1, 3, 0.4};
-  const Eigen::Isometry3d motion = camera_motion(wheels);
+  const OdometryIncrement odometry{1, 3, 0.4};
+  const Eigen::Isometry3d motion = camera_motion(odometry);
   CameraPose before;
   before.heading_rad = 1.1;
-  const PlanPose after_plan = moved({{0, 0}, 1.1}, 3, 0.4);
+  const Pose2 after_plan = moved({{0, 0}, 1.1}, 3, 0.4);
   CameraPose after;
   after.enu_m = {after_plan.enu_m.x(), after_plan.enu_m.y(), 0};
   after.heading_rad = after_plan.heading_rad;
   const Eigen::Vector3d point(12, 9, 2);
-  const Eigen::Vector3d expected = seen_from(after, point);
-  const Eigen::Vector3d is = motion.inverse() * seen_from(before, point);
+  const Eigen::Vector3d expected = point_in_camera(after, point);
+  const Eigen::Vector3d is = motion.inverse() * point_in_camera(before, point);
   EXPECT_TRUE(is.isApprox(expected, 1e-9)) << is.transpose() << " not " << expected.transpose();
 }
 
-// Points seen before and after a motion, with noise, and some that are wrong.
+// Points observed before and after a motion, with noise and some outliers.
 std::vector<RayPair> pairs_of(const Eigen::Isometry3d& motion, double sigma, int count, int wrong,
                               double away_m = 15) {
   std::mt19937 random(3);
@@ -55,32 +55,32 @@ double degrees_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return Eigen::AngleAxisd(a * b.transpose()).angle() / kRadPerDeg;
 }
 
-TEST(EpipolarDistance, IsNoughtForPointsThatStandStill) {
+TEST(EpipolarDistance, IsZeroForStaticPoints) {
   const Eigen::Isometry3d motion = camera_motion({1, 2, 0.1});
   for (const RayPair& pair : pairs_of(motion, 0, 50, 0)) {
     EXPECT_NEAR(epipolar_distance(pair, motion), 0, 1e-12);
   }
 }
 
-// Sampson's: each of both rays is as far from where it should be as from the other's line.
+// Sampson's distance: the error is split between both rays.
 TEST(EpipolarDistance, IsTheRaysOwn) {
   const Eigen::Isometry3d ahead(Eigen::Translation3d(0, 0, 0.01));
   const RayPair pair{{0.2, 0, 1}, {0.2, 0.003, 1}};
   EXPECT_NEAR(std::abs(epipolar_distance(pair, ahead)), 0.003 / std::sqrt(2), 1e-5);
 }
 
-TEST(EpipolarDistance, IsNoughtWithoutAWay) {
+TEST(EpipolarDistance, IsZeroWithoutTranslation) {
   EXPECT_EQ(epipolar_distance({{0.2, 0.1, 1}, {0.3, 0.1, 1}}, Eigen::Isometry3d::Identity()), 0);
 }
 
-TEST(RefinedMotion, MendsWhatTheWheelsTell) {
-  const WheelMotion wheels{0.2, 2, 0.05};
-  Eigen::Isometry3d truth = camera_motion(wheels);
-  // A bump, a yaw that the wheels missed, a camera that looks a little down and to the left.
+TEST(RefinedMotion, CorrectsOdometry) {
+  const OdometryIncrement odometry{0.2, 2, 0.05};
+  Eigen::Isometry3d truth = camera_motion(odometry);
+  // A bump, a yaw that odometry missed, a camera that looks slightly down and to the left.
   truth.rotate(Eigen::AngleAxisd(0.012, Eigen::Vector3d::UnitY()))
       .rotate(Eigen::AngleAxisd(-0.008, Eigen::Vector3d::UnitX()));
   truth.translation() = Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitX()) * truth.translation();
-  const Eigen::Isometry3d start = camera_motion(wheels);
+  const Eigen::Isometry3d start = camera_motion(odometry);
   const Eigen::Isometry3d refined = refined_motion(pairs_of(truth, 0.002, 300, 60), start, 0.002);
   EXPECT_GT(degrees_between(start.linear(), truth.linear()), 0.8);
   EXPECT_LT(degrees_between(refined.linear(), truth.linear()), 0.08);
@@ -88,8 +88,8 @@ TEST(RefinedMotion, MendsWhatTheWheelsTell) {
   EXPECT_LT(std::acos(refined.translation().dot(truth.translation()) / 4) / kRadPerDeg, 0.6);
 }
 
-// Far away, a way to the side hardly moves a point: its noise is not taken for one.
-TEST(RefinedMotion, WhatThePairsCannotTellIsAsTheWheelsSay) {
+// A sideways translation hardly moves distant points: their noise must not be attributed to it.
+TEST(RefinedMotion, UnobservableMotionIsThatOfOdometry) {
   const Eigen::Isometry3d start = camera_motion({0.2, 1, 0});
   const std::vector<RayPair> pairs = pairs_of(start, 0.002, 30, 0, 2000);
   const Eigen::Isometry3d refined = refined_motion(pairs, start, 0.002);
@@ -97,7 +97,7 @@ TEST(RefinedMotion, WhatThePairsCannotTellIsAsTheWheelsSay) {
   EXPECT_LT(degrees_between(refined.linear(), start.linear()), 0.3);
 }
 
-TEST(RefinedMotion, WithoutPairsTheWheelsAreBelieved) {
+TEST(RefinedMotion, WithoutPairsItIsThatOfOdometry) {
   const Eigen::Isometry3d start = camera_motion({0.2, 2, 0.05});
   const Eigen::Isometry3d refined = refined_motion({}, start, 0.002);
   EXPECT_TRUE(refined.linear().isApprox(start.linear()));

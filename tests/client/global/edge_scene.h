@@ -1,4 +1,4 @@
-// Edges of boxes before a camera, and how well directions that were found fit them.
+// Edges of boxes in front of a camera, and the fit of detected directions to them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,13 +16,13 @@
 
 namespace milepost::testing {
 
-inline constexpr Pinhole kView{600, 600, 320, 240};
+inline constexpr Pinhole kEdgeView{600, 600, 320, 240};
 
 inline Eigen::Matrix3d turn(double deg, const Eigen::Vector3d& axis) {
   return Eigen::AngleAxisd(deg * kRadPerDeg, axis).toRotationMatrix();
 }
 
-inline Eigen::Vector2d pixel_of(const Eigen::Vector3d& point) { return kView.pixel_of(point); }
+inline Eigen::Vector2d project(const Eigen::Vector3d& point) { return kEdgeView.project(point); }
 
 inline double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::acos(std::min(1.0, std::abs(a.dot(b)))) / kRadPerDeg;
@@ -39,8 +39,8 @@ inline double nearest_deg(const VanishingDirections& found, const Eigen::Vector3
   return nearest;
 }
 
-// Edges of boxes before a camera, in the frame of a level camera (x right, y down, z forward), in
-// the directions given, seen by a camera that is turned; with noise and outliers.
+// Edges of boxes in front of a camera, in given directions in the frame of a level camera (x right,
+// y down, z forward), observed by a rotated camera, with noise and outliers.
 struct EdgeScene {
   std::vector<Eigen::Vector3d> directions;
   Eigen::Matrix3d camera_from_level;
@@ -62,7 +62,7 @@ struct EdgeScene {
         const Eigen::Vector3d from(6 * unit(random), 4 * unit(random), 14 + 4 * unit(random));
         const Eigen::Vector3d to = from + (2 + unit(random)) * directions[d];
         drawn.push_back(
-            {{moved(pixel_of(camera_from_level * from)), moved(pixel_of(camera_from_level * to))},
+            {{moved(project(camera_from_level * from)), moved(project(camera_from_level * to))},
              static_cast<int>(d)});
       }
     }
@@ -84,7 +84,7 @@ inline Eigen::Vector3d level_direction(double azimuth_deg) {
   return {std::sin(azimuth_deg * kRadPerDeg), 0, std::cos(azimuth_deg * kRadPerDeg)};
 }
 
-// Of a scene of three directions, 30 lines each and 40 outliers.
+// Of a scene with three directions, 30 lines each, and 40 outliers.
 inline void expect_lines_classed(const EdgeScene& scene, const VanishingDirections& found) {
   ASSERT_EQ(found.lines.size(), scene.segments.size());
   std::vector<std::size_t> lines(found.directions.size());
@@ -102,7 +102,7 @@ inline void expect_lines_classed(const EdgeScene& scene, const VanishingDirectio
     }
   }
   EXPECT_GT(right, 80);              // of 90
-  EXPECT_GT(outliers_left_out, 20);  // of 40: the others point at a direction by chance
+  EXPECT_GT(outliers_left_out, 20);  // of 40: the others fit a direction by chance
   for (std::size_t d = 0; d < lines.size(); ++d) EXPECT_EQ(found.directions[d].lines, lines[d]);
 }
 

@@ -24,7 +24,7 @@ TEST(GaussianSphere, ACircleHoldsTheSegmentsEnds) {
   EXPECT_NEAR(circle.arc_distance_rad(circle.normal), std::numbers::pi / 2, 1e-7);
 }
 
-// Against many segments whose ends were moved.
+// Compared with many segments with noisy ends.
 TEST(GaussianSphere, SigmaIsTheSpreadThatMovedEndsMake) {
   const Pinhole view{500, 500, 320, 240};
   const Eigen::Vector2d start(300, 200);
@@ -56,7 +56,7 @@ TEST(GaussianSphere, CirclesMeetInTheDirectionOfParallelLines) {
       great_circle(kView, {{520.1, 240}, {420.1, 40}}, {}),
   };
   const auto points = intersections(circles, 0.01);
-  ASSERT_EQ(points.size(), 2u);  // the last two all but coincide
+  ASSERT_EQ(points.size(), 2u);  // the last two almost coincide
   EXPECT_TRUE(points[0].isApprox(Eigen::Vector3d(0, -1, 1).normalized(), 1e-9))
       << points[0].transpose();
 }

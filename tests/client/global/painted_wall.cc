@@ -6,7 +6,7 @@
 namespace milepost::testing {
 namespace {
 
-constexpr double kPixelPerM = 60;  // of the wall's picture
+constexpr double kPixelPerM = 60;  // of the wall's image
 
 }  // namespace
 
@@ -28,7 +28,7 @@ cv::Mat seen(const cv::Mat& wall, double ahead_m, double turn_rad, double pitch_
   const Eigen::Matrix3d camera_from_first =
       Eigen::AngleAxisd(-pitch_rad, Eigen::Vector3d::UnitX()).toRotationMatrix() *
       Eigen::AngleAxisd(-turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  // A point x, y of the wall's picture lies at ((x, y) - middle) / kPixelPerM, kWallM ahead.
+  // A point (x, y) of the wall's image lies at ((x, y) - middle) / kPixelPerM, kWallM ahead.
   Eigen::Matrix3d first_from_picture;
   first_from_picture << 1 / kPixelPerM, 0, -30, 0, 1 / kPixelPerM, -20, 0, 0, kWallM - ahead_m;
   Eigen::Matrix3d pixel_from_camera;

@@ -1,4 +1,4 @@
-// Drives in a plan of streets: what a vehicle sees there is cast from the walls, with noise.
+// Simulated drives in a plan of streets: observations are ray cast from the walls, with noise.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,14 +18,14 @@ inline constexpr double kStepM = 1.5;
 inline constexpr double kStepS = 0.2;
 
 struct Step {
-  PlanPose truth;
-  WheelMotion motion;
+  Pose2 truth;
+  OdometryIncrement motion;
   WallObservation observation;
 };
 
-// Beams each 3 degrees that end at a wall within 50 m, three in four of them rightly, and the
+// Beams every 3 degrees that end at a wall within 50 m, three in four of them inliers, and the
 // orientations of walls.
-inline WallObservation seen_at(const PlanPose& pose, const WallIndex& walls, Random& random) {
+inline WallObservation seen_at(const Pose2& pose, const RayCastingGrid& walls, Random& random) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> chance(0, 1);
   WallObservation observation;
@@ -43,22 +43,23 @@ inline WallObservation seen_at(const PlanPose& pose, const WallIndex& walls, Ran
 
 class PlanDriveTest : public ::testing::Test {
  protected:
-  // On along a heading for so many steps, turning evenly. The wheels tell too much or too little,
-  // and what is triangulated by them with them.
+  // Drives straight or turning evenly. Odometry has a scale error, and so have the ranges
+  // triangulated with it.
   void drive(int steps, double turn_rad = 0) {
     std::normal_distribution<double> normal;
     for (int i = 0; i < steps; ++i) {
       const double turn = turn_rad / steps;
       pose_ = moved(pose_, kStepM, turn);
-      const double told_m = kStepM * (wheels_tell_ + 0.02 * normal(random_));
-      Step step{
-          pose_, {kStepS, told_m, turn + 0.003 * normal(random_)}, seen_at(pose_, walls_, random_)};
-      for (Beam& beam : step.observation.beams) beam.range_m *= wheels_tell_;
+      const double odometry_m = kStepM * (has_odometry_ + 0.02 * normal(random_));
+      Step step{pose_,
+                {kStepS, odometry_m, turn + 0.003 * normal(random_)},
+                seen_at(pose_, walls_, random_)};
+      for (Beam& beam : step.observation.beams) beam.range_m *= has_odometry_;
       steps_.push_back(std::move(step));
     }
   }
 
-  // Up the street and round the corner to the east.
+  // Along the street and around the corner to the east.
   void drive_round_the_corner() {
     drive(62);
     drive(10, std::numbers::pi / 2);
@@ -69,23 +70,23 @@ class PlanDriveTest : public ::testing::Test {
     int found = 0;  // frames
     int wrong = 0;  // of these, more than 5 m away
     double last_error_m = 0;
-    FindStatus last = FindStatus::initializing;
+    GlobalStatus last = GlobalStatus::initializing;
     BeliefMode mode;
   };
 
   Outcome run(const MakePlanFilter& make_filter, const FilterSettings& settings,
-              const WallIndex& walls) const {
+              const RayCastingGrid& walls) const {
     PlanBox area = walls.bounds();
     area.min_m.array() -= 10;
     area.max_m.array() += 10;
     const std::unique_ptr<PlanFilter> filter = make_filter(walls, area, settings);
     Outcome outcome;
     for (const Step& step : steps_) {
-      const Found found = filter->update(step.observation, step.motion);
+      const PlanEstimate found = filter->update(step.observation, step.motion);
       outcome.last = found.status;
       outcome.mode = found.mode;
       outcome.last_error_m = (found.mode.pose.enu_m - step.truth.enu_m).norm();
-      if (found.status != FindStatus::tracking) continue;
+      if (found.status != GlobalStatus::tracking) continue;
       ++outcome.found;
       outcome.wrong += outcome.last_error_m > 5 ? 1 : 0;
     }
@@ -98,10 +99,10 @@ class PlanDriveTest : public ::testing::Test {
     return settings;
   }
 
-  WallIndex walls_{testing::bent_street()};
+  RayCastingGrid walls_{testing::bent_street()};
   Random random_{11};
-  PlanPose pose_{{1, 3}, 0};
-  double wheels_tell_ = 1.01;  // of a metre
+  Pose2 pose_{{1, 3}, 0};
+  double has_odometry_ = 1.01;  // metres of odometry per metre
   std::vector<Step> steps_;
 };
 

@@ -1,9 +1,9 @@
-// Walls in plan view for the tests of the finder.
+// Walls in plan view for the tests of global localization.
 #pragma once
 
 #include <vector>
 
-#include "client/global/wall_index.h"
+#include "client/global/ray_casting_grid.h"
 
 namespace milepost::testing {
 

@@ -33,14 +33,14 @@ TEST(ScenePoints, StandAsFarAsTheWallIs) {
   const cv::Mat wall = painted_wall();
   ScenePointTracker tracker(kView, {});
   EXPECT_TRUE(tracker.observe(seen(wall, 0, 0), {}).empty());
-  // The wheels missed some of the turn.
+  // Odometry missed some of the turn.
   tracker.observe(seen(wall, 1, 0.02), {0.2, 1, 0.015});
   const auto points = tracker.observe(seen(wall, 2, 0.04), {0.2, 1, 0.018});
   ASSERT_GT(points.size(), 100U);
   std::vector<double> off_m;
   std::vector<double> off_sigmas;
   for (const ScenePoint& point : points) {
-    // Its distance before the first camera's plane.
+    // The distance in front of the first camera's plane.
     const double ahead_m =
         point.camera_m.z() * std::cos(0.04) - point.camera_m.x() * std::sin(0.04) + 2;
     off_m.push_back(std::abs(ahead_m - kWallM));
@@ -72,7 +72,7 @@ TEST(ScenePoints, ShortStepsAddUp) {
   EXPECT_GT(most, 100U);
 }
 
-// What comes into view is followed from there on.
+// Points that come into view are tracked from there on.
 TEST(ScenePoints, ATurnOnTheSpotBringsNewPoints) {
   const cv::Mat wall = painted_wall();
   ScenePointTracker tracker(kView, {});
@@ -83,7 +83,7 @@ TEST(ScenePoints, ATurnOnTheSpotBringsNewPoints) {
   EXPECT_NEAR(median(ahead_of(points)), kWallM - 1, 0.5);
 }
 
-// Of rows of windows one looks like the other: few are taken for their neighbours.
+// Windows in a row look alike: few are mistaken for their neighbours.
 TEST(ScenePoints, WhatLooksAlikeIsSeldomMistaken) {
   cv::Mat wall(40 * 60, 60 * 60, CV_8UC1, cv::Scalar(200));
   for (int y = 20; y < wall.rows; y += 90) {
@@ -104,7 +104,7 @@ TEST(ScenePoints, WhatLooksAlikeIsSeldomMistaken) {
   EXPECT_LT(wrong, 0.22 * static_cast<double>(points.size()));
 }
 
-// Longer than the way to the nearest points that are looked for.
+// Longer than the distance to the nearest points that are searched.
 TEST(ScenePoints, LongStepsAreFollowed) {
   const cv::Mat wall = painted_wall();
   ScenePointTracker tracker(kView, {});
@@ -112,7 +112,7 @@ TEST(ScenePoints, LongStepsAreFollowed) {
   EXPECT_GT(tracker.observe(seen(wall, 3, 0), {0.2, 3, 0}).size(), 100U);
 }
 
-// Something before the wall that sinks by half a degree each frame.
+// An object in front of the wall that moves down by half a degree per frame.
 TEST(ScenePoints, WhatMovesIsLeftOut) {
   const cv::Mat wall = painted_wall();
   const cv::Mat patch = wall(cv::Rect(700, 300, 150, 150));
@@ -125,7 +125,7 @@ TEST(ScenePoints, WhatMovesIsLeftOut) {
   }
   int of_patch = 0;
   for (const ScenePoint& point : points) {
-    const Eigen::Vector2d at = kView.pixel_of(point.camera_m);
+    const Eigen::Vector2d at = kView.project(point.camera_m);
     of_patch += at.x() > 420 && at.x() < 530 && at.y() > 180 && at.y() < 280 ? 1 : 0;
   }
   EXPECT_GT(points.size(), 100U);
@@ -141,7 +141,7 @@ TEST(ScenePoints, StandingStillTellsNothing) {
   }
   // The short steps add up.
   EXPECT_FALSE(tracker.observe(seen(wall, 1, 0), {0.2, 0.97, 0}).empty());
-  // What is known by now is not told again.
+  // Points already reported are not repeated.
   EXPECT_TRUE(tracker.observe(seen(wall, 1, 0), {0.2, 0.01, 0}).empty());
 }
 

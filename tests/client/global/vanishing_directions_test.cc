@@ -14,10 +14,10 @@
 namespace milepost {
 namespace {
 
-using testing::kView;
+using testing::kEdgeView;
 using testing::level_direction;
 using testing::nearest_deg;
-using testing::pixel_of;
+using testing::project;
 using testing::turn;
 using Scene = testing::EdgeScene;
 
@@ -26,10 +26,10 @@ TEST(VanishingDirections, BoxesSeenByATurnedCameraGiveTheirDirections) {
     for (const double tilt_deg : {-12.0, 0.0, 20.0}) {
       const Eigen::Matrix3d turned =
           turn(roll_deg, Eigen::Vector3d::UnitZ()) * turn(tilt_deg, Eigen::Vector3d::UnitX());
-      // The third wall is square to neither of the others.
+      // The third wall is perpendicular to neither of the others.
       const Scene scene({{0, 1, 0}, level_direction(35), level_direction(-55), level_direction(80)},
                         turned, 0.3, 25, 40);
-      const VanishingDirections found = vanishing_directions(scene.segments, kView);
+      const VanishingDirections found = vanishing_directions(scene.segments, kEdgeView);
       EXPECT_EQ(found.directions.size(), 4u);
       for (std::size_t d = 0; d < scene.directions.size(); ++d) {
         EXPECT_LT(nearest_deg(found, turned * scene.directions[d],
@@ -44,7 +44,7 @@ TEST(VanishingDirections, BoxesSeenByATurnedCameraGiveTheirDirections) {
 TEST(VanishingDirections, LinesAreClassedAndOutliersLeftOut) {
   const Scene scene({{0, 1, 0}, level_direction(35), level_direction(-55)},
                     turn(5, Eigen::Vector3d::UnitX()), 0.3, 30, 40);
-  testing::expect_lines_classed(scene, vanishing_directions(scene.segments, kView));
+  testing::expect_lines_classed(scene, vanishing_directions(scene.segments, kEdgeView));
 }
 
 // Two walls of a house corner with rows of windows, drawn from a level camera.
@@ -59,7 +59,7 @@ cv::Mat drawn_corner() {
            {std::pair{from_m, top_m}, std::pair{to_m, top_m}, std::pair{to_m, bottom_m},
             std::pair{from_m, bottom_m}}) {
         const Eigen::Vector2d pixel =
-            256 * pixel_of(corner + side_m * along + Eigen::Vector3d(0, height_m, 0));
+            256 * project(corner + side_m * along + Eigen::Vector3d(0, height_m, 0));
         outline.emplace_back(static_cast<int>(std::lround(pixel.x())),
                              static_cast<int>(std::lround(pixel.y())));
       }
@@ -77,11 +77,11 @@ cv::Mat drawn_corner() {
   return image;
 }
 
-// The image that the camera takes after it has been turned about its centre.
+// The image from the camera after a rotation about its centre.
 cv::Mat seen_turned(const cv::Mat& image, const Eigen::Matrix3d& turned) {
   Eigen::Matrix3d pixels;
-  pixels << kView.focal_x_px, 0, kView.principal_x_px, 0, kView.focal_y_px, kView.principal_y_px, 0,
-      0, 1;
+  pixels << kEdgeView.focal_x_px, 0, kEdgeView.principal_x_px, 0, kEdgeView.focal_y_px,
+      kEdgeView.principal_y_px, 0, 0, 1;
   const Eigen::Matrix3d homography = pixels * turned * pixels.inverse();
   cv::Mat matrix(3, 3, CV_64F);
   for (int row = 0; row < 3; ++row) {
@@ -101,7 +101,7 @@ TEST(VanishingDirections, TurningTheImageTurnsTheDirections) {
        {turn(0, Eigen::Vector3d::UnitZ()), turn(10, Eigen::Vector3d::UnitZ()),
         turn(-10, Eigen::Vector3d::UnitZ()), turn(8, Eigen::Vector3d::UnitX()),
         turn(-8, Eigen::Vector3d::UnitX())}) {
-    const VanishingDirections found = vanishing_directions(seen_turned(image, turned), kView);
+    const VanishingDirections found = vanishing_directions(seen_turned(image, turned), kEdgeView);
     EXPECT_LT(nearest_deg(found, turned * Eigen::Vector3d::UnitY(), Orientation::vertical), 0.5)
         << turned;
     for (const double azimuth_deg : {50.0, -40.0}) {
@@ -120,14 +120,14 @@ TEST(VanishingDirections, TurningTheImageTurnsTheDirections) {
 
 TEST(VanishingDirections, AnImageWithoutLinesHasNone) {
   const VanishingDirections found =
-      vanishing_directions(cv::Mat(480, 640, CV_8UC1, cv::Scalar(128)), kView);
+      vanishing_directions(cv::Mat(480, 640, CV_8UC1, cv::Scalar(128)), kEdgeView);
   EXPECT_TRUE(found.directions.empty());
   EXPECT_TRUE(found.lines.empty());
 }
 
 TEST(VanishingDirections, LinesEverywhichWayHaveNone) {
   const Scene scene({}, Eigen::Matrix3d::Identity(), 0, 0, 30);
-  const VanishingDirections found = vanishing_directions(scene.segments, kView);
+  const VanishingDirections found = vanishing_directions(scene.segments, kEdgeView);
   EXPECT_TRUE(found.directions.empty());
   EXPECT_EQ(found.lines.size(), 30u);
 }

@@ -16,7 +16,7 @@ using testing::kWallM;
 using testing::painted_wall;
 using testing::seen;
 
-// How far ahead the wall stands, by the beams: their median, in plan view.
+// The distance of the wall ahead by the beams: their median, in plan view.
 double wall_ahead_m(const std::vector<Beam>& beams) {
   std::vector<double> ahead_m;
   ahead_m.reserve(beams.size());
@@ -46,7 +46,7 @@ TEST(WallObserver, SeesHowAWallIsTurnedAndHowFarItStands) {
   EXPECT_NEAR(wall_ahead_m(observation.beams), kWallM - 2, 0.4);
 }
 
-// A camera that looks up sees the wall's points nearer than they are in plan view.
+// For a camera that looks up the wall's points are nearer than in plan view.
 TEST(WallObserver, ATiltedCamerasBeamsAreLevel) {
   const cv::Mat wall = painted_wall();
   const double up_rad = 0.2;

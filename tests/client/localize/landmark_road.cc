@@ -17,8 +17,8 @@ constexpr double kBendFromM = 200;
 constexpr double kBendRadiusM = 80;
 constexpr double kSlope = 0.03;
 constexpr double kDescriptorStep = 0.01;
-constexpr double kMappedFromM = 45;  // before a landmark ...
-constexpr double kMappedToM = 8;     // ... to so far before it
+constexpr double kMappedFromM = 45;  // ahead of a landmark ...
+constexpr double kMappedToM = 8;     // ... down to this distance
 constexpr double kFarthestSeenM = 50;
 const MapVersion kVersion = {"map", "0123456789abcdef0123456789abcdef"};
 
@@ -42,7 +42,8 @@ RouteLine road_line() {
   return *RouteLine::from_vertices(vertices);
 }
 
-// The point `lateral_m` to the right of the line and `up_m` above it; straight on beyond its ends.
+// The point `lateral_m` to the right of the line and `up_m` above it, extended straight beyond its
+// ends.
 GeoPoint beside(const RouteLine& line, double along_m, double lateral_m, double up_m) {
   const double on_line_m = std::clamp(along_m, 0.0, line.length_m());
   const double ahead_m = along_m - on_line_m;
@@ -62,7 +63,7 @@ Eigen::Vector3d vector_from(const EnuPoint& point) {
 
 LandmarkRoad::LandmarkRoad()
     : line_(road_line()),
-      codebook_(Codebook::trained(unlike_descriptors(500, 1), kDescriptorStep)) {
+      codebook_(PcaProjection::trained(unlike_descriptors(500, 1), kDescriptorStep)) {
   constexpr double kSpacingM = 0.5;
   const auto descriptors = unlike_descriptors(static_cast<std::size_t>(kLengthM / kSpacingM), 2);
   std::mt19937 random(4);
@@ -113,8 +114,8 @@ double LandmarkRoad::course_deg(const RoadPose& at) const {
   return wrapped_360(line_.heading_deg_at(at.along_m) + at.yaw_deg);
 }
 
-FeatureSet LandmarkRoad::seen_from(const RoadPose& at, double mounting_deg,
-                                   std::mt19937& random) const {
+FeatureSet LandmarkRoad::observe(const RoadPose& at, double mounting_deg,
+                                 std::mt19937& random) const {
   const LocalFrame frame(beside(line_, at.along_m, at.lateral_m, 0));
   CameraPose pose;
   pose.heading_rad = (course_deg(at) + mounting_deg) * kRadPerDeg;
@@ -124,9 +125,9 @@ FeatureSet LandmarkRoad::seen_from(const RoadPose& at, double mounting_deg,
   for (const Thing& thing : things_) {
     if (std::abs(thing.along_m - at.along_m) > kFarthestSeenM) continue;
     const Eigen::Vector3d seen =
-        milepost::seen_from(pose, vector_from(frame.enu_from_geo(thing.position)));
+        milepost::point_in_camera(pose, vector_from(frame.enu_from_geo(thing.position)));
     if (seen.z() < 2 || seen.z() > kFarthestSeenM) continue;
-    const Eigen::Vector2d pixel = kCamera.pixel_of(seen);
+    const Eigen::Vector2d pixel = kCamera.project(seen);
     if (pixel.x() < 0 || pixel.x() > kWidthPx || pixel.y() < 0 || pixel.y() > kHeightPx) continue;
     const double scale_px = thing.size_m * kCamera.focal_px() / seen.z();
     set.features.push_back({static_cast<float>(pixel.x() + 0.5 * noise(random)),

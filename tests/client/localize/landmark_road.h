@@ -1,4 +1,4 @@
-// A road through landmarks as a map, and what a camera that drives there sees.
+// A road with landmarks as a map, and the observations of a camera that drives there.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 #include "client/fetch/map_source.h"
 #include "client/fetch/nearby.h"
 #include "client/localize/localizer.h"
-#include "schema/feature/codebook.h"
+#include "schema/feature/pca_projection.h"
 #include "schema/geo/camera_pose.h"
 #include "schema/geo/pinhole.h"
 #include "schema/geo/route_line.h"
@@ -17,7 +17,7 @@
 
 namespace milepost::testing {
 
-// Where a vehicle is on the road.
+// The pose of a vehicle on the road.
 struct RoadPose {
   double along_m = 0;
   double lateral_m = 0;  // to the right
@@ -37,40 +37,40 @@ class LandmarkRoad {
   LandmarkRoad();
 
   const RouteLine& line() const { return line_; }
-  const Codebook& codebook() const { return codebook_; }
+  const PcaProjection& codebook() const { return codebook_; }
   SegmentDescription description() const;
   std::vector<LandmarkTile> tiles() const;
   Camera query_camera() const;
 
   // Of the direction of travel, clockwise from north.
   double course_deg(const RoadPose& at) const;
-  // What a camera sees whose mounting is turned by `mounting_deg` clockwise: pixels within 0.5 px
-  // (one sigma), scales within 5 %.
-  FeatureSet seen_from(const RoadPose& at, double mounting_deg, std::mt19937& random) const;
+  // The features observed by a camera whose mounting is rotated by `mounting_deg` clockwise, with
+  // noise of 0.5 px and 5 % of scale (one sigma).
+  FeatureSet observe(const RoadPose& at, double mounting_deg, std::mt19937& random) const;
 
  private:
   struct Thing {
     GeoPoint position;
-    double along_m = 0;  // of the road beside it
+    double along_m = 0;  // arc length of the road next to it
     double size_m = 0;
     Descriptor descriptor{};
   };
 
   RouteLine line_;
   std::vector<Thing> things_;
-  Codebook codebook_;
+  PcaProjection codebook_;
 };
 
-// The road, made once for all tests.
+// The road, created once for all tests.
 const LandmarkRoad& shared_road();
 
-// With a map beside which little is wanted, and which is asked again soon after it failed.
+// Settings that hold little map data and retry soon after failures.
 LocalizerSettings settings_of_a_short_reach();
 
 // The map of the road.
 std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road);
 
-// Waits until the localizer has what it wants of the map, or was refused it.
+// Waits until the localizer's map wants are settled.
 void wait_for_tiles(Localizer& localizer, double timestamp_s);
 
 }  // namespace milepost::testing

@@ -1,4 +1,4 @@
-// Landmarks before a camera, and the features that it sees of them.
+// Landmarks in front of a camera, and the observed features.
 #pragma once
 
 #include <random>
@@ -13,30 +13,30 @@ namespace milepost::testing {
 
 inline constexpr Pinhole kSceneCamera = {520, 500, 310, 190};
 
-inline PlacedLandmark landmark_at(const Eigen::Vector3d& enu_m, double size_m = 0.2) {
-  PlacedLandmark landmark;
+inline LocalLandmark landmark_at(const Eigen::Vector3d& enu_m, double size_m = 0.2) {
+  LocalLandmark landmark;
   landmark.enu_m = enu_m;
   landmark.mapping_ray = enu_m.normalized();
   landmark.size_m = size_m;
   return landmark;
 }
 
-// Without noise. REQUIRES: the landmark lies before the camera.
-inline Feature seen_feature(const PlacedLandmark& landmark, const CameraPose& pose,
+// Without noise. REQUIRES: the landmark lies in front of the camera.
+inline Feature seen_feature(const LocalLandmark& landmark, const CameraPose& pose,
                             const Pinhole& camera = kSceneCamera) {
-  const Eigen::Vector3d seen = seen_from(pose, landmark.enu_m);
-  const Eigen::Vector2d pixel = camera.pixel_of(seen);
+  const Eigen::Vector3d seen = point_in_camera(pose, landmark.enu_m);
+  const Eigen::Vector2d pixel = camera.project(seen);
   return {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()),
           static_cast<float>(landmark.size_m * camera.focal_px() / seen.z())};
 }
 
 struct LandmarkScene {
   CameraPose pose;
-  std::vector<PlacedLandmark> landmarks;
-  std::vector<Feature> features;       // one a landmark
+  std::vector<LocalLandmark> landmarks;
+  std::vector<Feature> features;       // one per landmark
   std::vector<LandmarkMatch> matches;  // feature i is landmark i
 
-  // A camera that looks to the north east, and `count` landmarks 5 to 40 m before it.
+  // A camera that looks to the north-east, and `count` landmarks 5 to 40 m in front of it.
   explicit LandmarkScene(std::size_t count, unsigned seed = 1) {
     pose.enu_m = {12, -7, 1.5};
     pose.heading_rad = 40 * kRadPerDeg;
@@ -67,7 +67,7 @@ struct LandmarkScene {
     return state;
   }
 
-  // About `mean`: as far as `sigma_m` and `sigma_deg`, in each direction.
+  // A belief around `mean` with `sigma_m` and `sigma_deg` per axis.
   static PoseBelief belief(const StateVector& mean, double sigma_m, double sigma_deg) {
     StateVector sigmas;
     const double sigma_rad = sigma_deg * kRadPerDeg;

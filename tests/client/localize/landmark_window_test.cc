@@ -7,7 +7,7 @@
 namespace milepost {
 namespace {
 
-constexpr GeoPoint kStart = {49, 8.4, 110};
+constexpr GeoPoint kWindowStart = {49, 8.4, 110};
 constexpr double kHalfStepM = 0.006;  // of the tiles' positions, and what the ellipsoid adds
 
 void expect_near(const Eigen::Vector3d& enu_m, const EnuPoint& expected) {
@@ -16,9 +16,9 @@ void expect_near(const Eigen::Vector3d& enu_m, const EnuPoint& expected) {
   EXPECT_NEAR(enu_m.z(), expected.up_m, kHalfStepM);
 }
 
-// 400 m to the north east, uphill.
+// 400 m to the north-east, uphill.
 RouteLine hill() {
-  const LocalFrame frame(kStart);
+  const LocalFrame frame(kWindowStart);
   return *RouteLine::from_vertices(
       {frame.geo_from_enu({0, 0, 0}), frame.geo_from_enu({240, 320, 20})});
 }
@@ -30,7 +30,7 @@ class LandmarksOnAHill : public ::testing::Test {
     Landmark landmark;
     landmark.descriptor[0] = static_cast<std::int8_t>(index);
     landmark.position = LocalFrame(line_.point_at(origin_m))
-                            .enu_from_geo(LocalFrame(kStart).geo_from_enu(from_start));
+                            .enu_from_geo(LocalFrame(kWindowStart).geo_from_enu(from_start));
     landmark.depth_sigma_m = 0.5F;
     landmark.size_m = 0.25F;
     landmark.size_sigma = 0.1F;
@@ -39,7 +39,7 @@ class LandmarksOnAHill : public ::testing::Test {
     return LandmarkTile{"hill", index, origin_m, {landmark}};
   }
 
-  // Of the map as it is held.
+  // The held map.
   LandmarkWindow window(const std::vector<testing::IndexedTile>& tiles) {
     held_ = testing::held_map(testing::layer_of(kHill, line_, {}, tiles), tiles);
     return {kHill, {5, 5}, line_};
@@ -55,8 +55,8 @@ TEST_F(LandmarksOnAHill, PlacesOfTwoTilesAgreeInOneFrame) {
   auto window = this->window({{{40, 60}, tile(2, 40, corner)}, {{60, 80}, tile(3, 60, corner)}});
   ASSERT_TRUE(window.cover(held_, {50, 70}).complete);
   ASSERT_EQ(window.landmarks().size(), 2U);
-  for (const PlacedLandmark& landmark : window.landmarks()) expect_near(landmark.enu_m, corner);
-  const PlacedLandmark& second = window.landmarks()[1];
+  for (const LocalLandmark& landmark : window.landmarks()) expect_near(landmark.enu_m, corner);
+  const LocalLandmark& second = window.landmarks()[1];
   EXPECT_EQ(second.descriptor[0], 3);
   EXPECT_NEAR(second.depth_sigma_m, 0.5, 0.02);
   EXPECT_NEAR(second.size_m, 0.25, 0.01);
@@ -65,7 +65,7 @@ TEST_F(LandmarksOnAHill, PlacesOfTwoTilesAgreeInOneFrame) {
   EXPECT_EQ(second.along.to_m, 80);
 }
 
-// From the line in the middle of where it was seen: 70 m of 400.
+// From the line in the middle of the mapped range: 70 m of 400.
 TEST_F(LandmarksOnAHill, RaysLeadFromWhereItWasMapped) {
   auto window = this->window({{{60, 80}, tile(3, 60, {42 + 16, 56 - 12, 3.5})}});
   ASSERT_TRUE(window.cover(held_, {60, 70}).complete);
@@ -79,13 +79,13 @@ TEST_F(LandmarksOnAHill, ANewOriginMovesThem) {
   const EnuPoint corner = {100, 130, 12};
   auto window = this->window({{{40, 60}, tile(2, 40, corner)}});
   ASSERT_TRUE(window.cover(held_, {50, 55}).complete);
-  window.set_origin(LocalFrame(kStart).geo_from_enu({60, 80, 5}));
+  window.set_origin(LocalFrame(kWindowStart).geo_from_enu({60, 80, 5}));
   ASSERT_EQ(window.landmarks().size(), 1U);
   expect_near(window.landmarks()[0].enu_m + Eigen::Vector3d(60, 80, 5), corner);
-  EXPECT_NEAR(window.frame().enu_from_geo(kStart).north_m, -80, 1e-2);
+  EXPECT_NEAR(window.frame().enu_from_geo(kWindowStart).north_m, -80, 1e-2);
 }
 
-TEST_F(LandmarksOnAHill, LetsGoOfWhatLiesBehind) {
+TEST_F(LandmarksOnAHill, DiscardsWhatLiesBehind) {
   auto window = this->window({{{40, 60}, tile(2, 40, {})}, {{100, 120}, tile(5, 100, {})}});
   ASSERT_TRUE(window.cover(held_, {50, 55}).complete);
   ASSERT_TRUE(window.cover(held_, {90, 105}).complete);
@@ -115,7 +115,7 @@ TEST_F(LandmarksOnAHill, TakesATileWhenItArrives) {
   EXPECT_TRUE(window.cover(held_, {50, 70}).changed);
   EXPECT_EQ(window.landmarks().size(), 2U);
   held_ = {};
-  EXPECT_TRUE(window.cover(held_, {52, 68}).complete);  // what was taken stays
+  EXPECT_TRUE(window.cover(held_, {52, 68}).complete);  // loaded tiles stay
   EXPECT_EQ(window.landmarks().size(), 2U);
 }
 

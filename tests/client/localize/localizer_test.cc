@@ -1,5 +1,6 @@
-// The localizer on straight roads whose images turn slowly from one to the next: against the
-// receiver, where nothing is to be seen, at the end of the road, and against a source that fails.
+// The localizer on straight roads whose images change slowly from one to the next: with
+// contradicting GNSS fixes, without measurements, at the end of the road, and with a failing
+// source.
 #include "client/localize/localizer.h"
 
 #include <gtest/gtest.h>
@@ -16,9 +17,9 @@ namespace {
 
 constexpr double kSpacingM = 2;
 constexpr double kLengthM = 400;
-constexpr GeoPoint kStart = {49.0, 8.4, 110};
+constexpr GeoPoint kLineStart = {49.0, 8.4, 110};
 constexpr GeoPoint kEnd = {49.0 + kLengthM / 111229, 8.4, 110};  // metres in a degree of latitude
-constexpr double kSigmaM = 5;                                    // of the receiver
+constexpr double kGnssSigmaM = 5;                                // of the receiver
 
 ImageDescriptor image_from(double along_m) {
   ImageDescriptor image{};
@@ -27,7 +28,7 @@ ImageDescriptor image_from(double along_m) {
   return image;
 }
 
-// Looks like no place of the road.
+// Resembles no position on the road.
 ImageDescriptor image_beside(double along_m) {
   ImageDescriptor image{};
   image[2] = static_cast<float>(std::cos(along_m / 100));
@@ -40,7 +41,7 @@ std::vector<testing::MemorySource::Tile> tiles_of_a_road(ImageDescriptor (*image
   constexpr double kTileM = 50;
   std::vector<testing::MemorySource::Tile> tiles;
   for (double from_m = 0; from_m <= kLengthM; from_m += kTileM) {
-    FrameTile tile{"road", static_cast<std::uint32_t>(tiles.size()), {}};
+    ImageDescriptorTile tile{"road", static_cast<std::uint32_t>(tiles.size()), {}};
     for (double along_m = from_m; along_m < from_m + kTileM; along_m += kSpacingM) {
       tile.frames.push_back({along_m, {}, image_of(along_m)});
     }
@@ -52,7 +53,7 @@ std::vector<testing::MemorySource::Tile> tiles_of_a_road(ImageDescriptor (*image
 std::string build_of_map(char digit) { return std::string(32, digit); }
 
 SegmentDescription straight(const std::string& segment) {
-  return {segment, kLengthM, {kStart, kEnd}, {}};
+  return {segment, kLengthM, {kLineStart, kEnd}, {}};
 }
 
 std::shared_ptr<testing::MemorySource> one_road() {
@@ -65,25 +66,26 @@ std::shared_ptr<testing::MemorySource> one_road() {
 
 class LocalizerAndReceiver : public ::testing::Test {
  protected:
-  // The fix of the next frame, taken at `along_m`, with the receiver at `receiver_m` a while ago.
+  // The fix of the next frame, taken at `along_m`, with a GNSS fix at `receiver_m` from `age_s`
+  // ago.
   Fix fix_at(double along_m, double receiver_m, double age_s = 0) {
     observe(receiver_m, age_s);
     return fix_of(image_from(along_m));
   }
 
-  // Drives up to `along_m` until the place is claimed.
+  // Drives up to `along_m` until the hypothesis is accepted.
   void track_to(double along_m) {
     FixStatus status = FixStatus::initializing;
     for (int i = 3; i >= 0; --i) status = fix_at(along_m - i * kSpacingM, along_m).status;
     ASSERT_EQ(status, FixStatus::tracking);
   }
 
-  // What the receiver says at the next frame.
+  // A GNSS fix for the next frame.
   void observe(double receiver_m, double age_s = 0) {
-    localizer_.observe({time_s_ + kStepS - age_s, road_->point_at(receiver_m), kSigmaM});
+    localizer_.observe({time_s_ + kStepS - age_s, road_->point_at(receiver_m), kGnssSigmaM});
   }
 
-  // The fix of the next frame without a word of the receiver; nothing is to be seen without image.
+  // The fix of the next frame without a GNSS fix; nothing is visible without an image.
   Fix fix_of(const std::optional<ImageDescriptor>& image) {
     time_s_ += kStepS;
     QueryFrame frame{time_s_, {}, {}};
@@ -94,7 +96,7 @@ class LocalizerAndReceiver : public ::testing::Test {
     return *fix;
   }
 
-  // Frames in which nothing is to be seen, until the fix is no longer predicted.
+  // Frames without a measurement, until the fix is no longer predicted.
   Fix fix_after_seeing_nothing() {
     for (int frame = 0; frame < LocalizerSettings().max_predicted_frames; ++frame) {
       EXPECT_EQ(fix_of(std::nullopt).status, FixStatus::predicted) << frame;
@@ -103,7 +105,7 @@ class LocalizerAndReceiver : public ::testing::Test {
   }
 
   std::shared_ptr<testing::MemorySource> map_ = one_road();
-  Result<RouteLine> road_ = RouteLine::from_vertices({kStart, kEnd});
+  Result<RouteLine> road_ = RouteLine::from_vertices({kLineStart, kEnd});
 
  private:
   static constexpr double kStepS = 0.2;
@@ -113,7 +115,7 @@ class LocalizerAndReceiver : public ::testing::Test {
     LocalizerSettings settings;
     settings.method = *method_named("wisurf");
     settings.prefetch_m = 0;
-    settings.scout.reach = {0, 10};
+    settings.method_settings.reach = {0, 10};
     settings.provider.surroundings_margin_m = 0;
     settings.provider.kept_m = 0;
     settings.provider.backoff.first_s = 0.001;
@@ -126,7 +128,7 @@ class LocalizerAndReceiver : public ::testing::Test {
   double time_s_ = 10;
 };
 
-TEST_F(LocalizerAndReceiver, FollowsWhileTheyAgree) {
+TEST_F(LocalizerAndReceiver, TracksWhileTheyAgree) {
   track_to(50);
   for (double along_m = 52; along_m < 100; along_m += kSpacingM) {
     const Fix fix = fix_at(along_m, along_m - 9);
@@ -139,7 +141,7 @@ TEST_F(LocalizerAndReceiver, StartsAnewWhereTheReceiverContradictsForLong) {
   track_to(52);
   Fix fix;
   int frames = 0;
-  do {  // it looks as before, but the vehicle is elsewhere
+  do {  // same images, but the vehicle is elsewhere
     fix = fix_at(52, 200);
   } while (fix.status == FixStatus::tracking && ++frames < 100);
   EXPECT_GT(frames, 5);   // a second
@@ -201,12 +203,12 @@ TEST_F(LocalizerAndReceiver, WhatIsSeenBetweenKeepsItFromBeingLost) {
 
 TEST_F(LocalizerAndReceiver, LostItStartsAgainWhereItWasWithoutTheReceiver) {
   track_to(50);
-  for (int frame = 0; frame < 20; ++frame) fix_of(image_from(52));  // the receiver grows old
+  for (int frame = 0; frame < 20; ++frame) fix_of(image_from(52));  // the GNSS fix grows old
   ASSERT_EQ(fix_after_seeing_nothing().status, FixStatus::lost);
   const Fix again = fix_of(image_from(52));
   EXPECT_NEAR(again.along_m.value_or(0), 52, kSpacingM);
   ASSERT_EQ(fix_of(image_from(52)).status, FixStatus::tracking);
-  EXPECT_EQ(fix_after_seeing_nothing().status, FixStatus::lost);  // as many frames as at first
+  EXPECT_EQ(fix_after_seeing_nothing().status, FixStatus::lost);  // again after as many frames
 }
 
 TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItIsOffTheMap) {
@@ -216,7 +218,7 @@ TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItIsOffTheMap) {
     EXPECT_EQ(fix.status, FixStatus::tracking);
     EXPECT_LE(*fix.along_m, road_->length_m());
   }
-  road_ = RouteLine::from_vertices({{48, 8.4, 110}, {48.01, 8.4, 110}});  // the receiver drives on
+  road_ = RouteLine::from_vertices({{48, 8.4, 110}, {48.01, 8.4, 110}});  // GNSS moves on
   EXPECT_EQ(fix_at(408, 50).status, FixStatus::off_map);
   EXPECT_EQ(fix_at(408, 50, 4).status, FixStatus::off_map);  // it was not lost
 }
@@ -232,7 +234,7 @@ TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItStartsOnTheNext) {
   EXPECT_NEAR(next.along_m.value_or(0), 200, kSpacingM);
 }
 
-// It looks there as beyond the end, but nothing drives 200 m in a fifth of a second.
+// The images are the same there as beyond the end, but nothing drives 200 m in 0.2 s.
 TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItIsNotAtOnceFarBack) {
   fix_at(396, 396);
   for (const double along_m : {398.0, 400.0, 402.0, 404.0, 406.0}) fix_at(along_m, along_m);
@@ -241,8 +243,8 @@ TEST_F(LocalizerAndReceiver, BeyondTheEndOfTheRoadItIsNotAtOnceFarBack) {
   }
 }
 
-// Of the build that is gone it uses what it holds; the road of the next is another place until
-// that is claimed.
+// The held data of the replaced build is used; the road of the new build is another hypothesis
+// until it is accepted.
 TEST_F(LocalizerAndReceiver, ABuildThatIsGoneIsLookedUpAnew) {
   track_to(50);
   map_->build_anew(build_of_map('2'));
@@ -254,29 +256,29 @@ TEST_F(LocalizerAndReceiver, ABuildThatIsGoneIsLookedUpAnew) {
     if (fix.version.build == build_of_map('2') && fix.status == FixStatus::tracking) break;
   }
   EXPECT_LT(along_m, 200);
-  EXPECT_GT(along_m, 60);  // it did not fall from what it held
+  EXPECT_GT(along_m, 60);  // it kept using the data held
 }
 
-TEST_F(LocalizerAndReceiver, WhileSeveralPlacesAreWeighedAFailingSourceIsNotedToo) {
+TEST_F(LocalizerAndReceiver, WhileSeveralHypothesesAreTestedAFailingSourceIsRecordedToo) {
   fix_at(40, 40);
   map_->be_unavailable();
-  const Fix fix = fix_at(42, 85);  // looked for beyond 100 m, too
+  const Fix fix = fix_at(42, 85);  // also searched beyond 100 m
   EXPECT_NEAR(fix.along_m.value_or(0), 42, kSpacingM);
-  ASSERT_TRUE(localizer_.noted_error().has_value());
-  EXPECT_EQ(localizer_.noted_error()->code, ErrorCode::unavailable);
+  ASSERT_TRUE(localizer_.last_error().has_value());
+  EXPECT_EQ(localizer_.last_error()->code, ErrorCode::unavailable);
 }
 
-TEST_F(LocalizerAndReceiver, ASourceThatFailsIsNotedAndDrivenOnWithout) {
+TEST_F(LocalizerAndReceiver, AFailingSourceIsRecordedAndLocalizationContinues) {
   track_to(50);
   map_->be_unavailable();
   Fix fix;
   double along_m = 52;
-  for (; along_m < 200 && !localizer_.noted_error(); along_m += kSpacingM) {
+  for (; along_m < 200 && !localizer_.last_error(); along_m += kSpacingM) {
     fix = fix_at(along_m, along_m);
     EXPECT_EQ(fix.status, FixStatus::tracking);
   }
-  ASSERT_TRUE(localizer_.noted_error().has_value());
-  EXPECT_EQ(localizer_.noted_error()->code, ErrorCode::unavailable);
+  ASSERT_TRUE(localizer_.last_error().has_value());
+  EXPECT_EQ(localizer_.last_error()->code, ErrorCode::unavailable);
   // What is held is used to its end.
   for (; along_m < 140 && fix.status == FixStatus::tracking; along_m += kSpacingM) {
     fix = fix_at(along_m, along_m);

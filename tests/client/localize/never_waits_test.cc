@@ -1,4 +1,5 @@
-// The localizer beside a map that comes by itself: no frame enters the source or waits for it.
+// The localizer while the map loads in the background: no frame accesses the source or waits for
+// it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +16,8 @@ using std::chrono::seconds;
 using std::chrono::steady_clock;
 using testing::LandmarkRoad;
 
-constexpr double kFrameM = 1;
-constexpr double kSpeedMps = 10;
+constexpr double kFrameSpacingM = 1;
+constexpr double kDrivenMps = 10;
 
 class NeverWaits : public ::testing::Test {
  protected:
@@ -29,23 +30,23 @@ class NeverWaits : public ::testing::Test {
     return settings;
   }
 
-  // The fix of the next frame, by what is held.
+  // The fix of the next frame with the data held.
   Fix fix(double along_m) {
-    const FeatureSet set = road().seen_from({along_m, 0, 0}, 0, random_);
+    const FeatureSet set = road().observe({along_m, 0, 0}, 0, random_);
     localizer_->observe({time_s_, road().line().point_at(along_m), 5});
     const auto fix = localizer_->localize(
         {time_s_, [&](const FeatureParameters&) -> const FeatureSet& { return set; }});
-    time_s_ += kFrameM / kSpeedMps;
+    time_s_ += kFrameSpacingM / kDrivenMps;
     return fix.ok() ? *fix : Fix();
   }
 
-  // Drives from 50 m on until the place is claimed, as fast as the map comes.
+  // Drives from 50 m on until the hypothesis is accepted, as fast as the map loads.
   double track() {
     double along_m = 50;
     const auto deadline = steady_clock::now() + seconds(60);
     while (fix(along_m).status != FixStatus::tracking && steady_clock::now() < deadline) {
       std::this_thread::sleep_for(milliseconds(5));
-      if (localizer_->fix_at(time_s_).status != FixStatus::initializing) along_m += kFrameM;
+      if (localizer_->fix_at(time_s_).status != FixStatus::initializing) along_m += kFrameSpacingM;
     }
     return along_m;
   }
@@ -59,17 +60,17 @@ class NeverWaits : public ::testing::Test {
 TEST_F(NeverWaits, NoFrameEntersTheSource) {
   localizer_.emplace(map_, road().query_camera(), settings(300));
   double along_m = track();
-  for (; along_m < 200; along_m += kFrameM) fix(along_m);
+  for (; along_m < 200; along_m += kFrameSpacingM) fix(along_m);
   EXPECT_GT(map_->tile_requests(), 0);
   EXPECT_FALSE(map_->callers().contains(std::this_thread::get_id()));
 }
 
-// In real time, a hundred frames a second: what is ahead arrives before it is needed.
+// In real time, 100 frames per second: the map ahead arrives before it is needed.
 TEST_F(NeverWaits, FramesFindTheMapThatWasFetchedAhead) {
   localizer_.emplace(map_, road().query_camera(), settings(300));
-  double along_m = track() + kFrameM;
+  double along_m = track() + kFrameSpacingM;
   int tracked = 0;
-  for (int i = 0; i < 300; ++i, along_m += kFrameM) {
+  for (int i = 0; i < 300; ++i, along_m += kFrameSpacingM) {
     const Fix on = fix(along_m);
     if (on.status != FixStatus::tracking) continue;
     ++tracked;
@@ -79,11 +80,11 @@ TEST_F(NeverWaits, FramesFindTheMapThatWasFetchedAhead) {
   EXPECT_EQ(tracked, 300);
 }
 
-// The source hangs in the middle of the drive: what is held is used to its end, then the motion
-// carries on; nothing waits.
+// The source hangs during the drive: the held data is used to its end, then the motion is
+// predicted; nothing waits.
 TEST_F(NeverWaits, WhatIsHeldIsUsedToItsEndWhileTheSourceHangs) {
   localizer_.emplace(map_, road().query_camera(), settings(150));
-  double along_m = track() + kFrameM;
+  double along_m = track() + kFrameSpacingM;
   testing::wait_for_tiles(*localizer_, time_s_);
   map_->block();
   const int requests = map_->tile_requests();
@@ -91,7 +92,7 @@ TEST_F(NeverWaits, WhatIsHeldIsUsedToItsEndWhileTheSourceHangs) {
   double tracked_to_m = 0;
   Fix on;
   const auto began = steady_clock::now();
-  for (; along_m < hung_at_m + 300; along_m += kFrameM) {
+  for (; along_m < hung_at_m + 300; along_m += kFrameSpacingM) {
     on = fix(along_m);
     if (on.status != FixStatus::tracking) break;
     tracked_to_m = along_m;
@@ -100,7 +101,7 @@ TEST_F(NeverWaits, WhatIsHeldIsUsedToItsEndWhileTheSourceHangs) {
   EXPECT_GT(tracked_to_m, hung_at_m + 140);
   EXPECT_LT(tracked_to_m, hung_at_m + 250);
   EXPECT_EQ(on.status, FixStatus::predicted);
-  EXPECT_LT(steady_clock::now() - began, seconds(120));  // a source that hangs never comes back
+  EXPECT_LT(steady_clock::now() - began, seconds(120));  // a hanging source never returns
   map_->block(false);
 }
 
@@ -115,20 +116,20 @@ TEST_F(NeverWaits, EndsWhileTheSourceHangs) {
 
 TEST_F(NeverWaits, AFixCanBeAskedForAtALaterTime) {
   localizer_.emplace(map_, road().query_camera(), settings(300));
-  double along_m = track() + kFrameM;
+  double along_m = track() + kFrameSpacingM;
   Fix latest;
-  for (int i = 0; i < 20; ++i, along_m += kFrameM) latest = fix(along_m);
+  for (int i = 0; i < 20; ++i, along_m += kFrameSpacingM) latest = fix(along_m);
   ASSERT_EQ(latest.status, FixStatus::tracking);
   const Fix now = localizer_->fix_at(latest.timestamp_s);
   EXPECT_NEAR(*now.along_m, *latest.along_m, 1e-6);
   const Fix later = localizer_->fix_at(latest.timestamp_s + 0.5);
   EXPECT_EQ(later.status, FixStatus::predicted);
   EXPECT_EQ(later.timestamp_s, latest.timestamp_s + 0.5);
-  EXPECT_NEAR(*later.along_m, *latest.along_m + 0.5 * kSpeedMps, 0.3);
+  EXPECT_NEAR(*later.along_m, *latest.along_m + 0.5 * kDrivenMps, 0.3);
   EXPECT_GT(later.sigma_m, latest.sigma_m);
   ASSERT_TRUE(later.camera);
   EXPECT_GT(later.camera->covariance[0], latest.camera->covariance[0]);
-  // Asking changes nothing.
+  // The query changes nothing.
   EXPECT_NEAR(*localizer_->fix_at(latest.timestamp_s).along_m, *latest.along_m, 1e-6);
 }
 

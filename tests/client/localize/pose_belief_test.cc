@@ -12,17 +12,17 @@ namespace {
 
 PoseBelief driving_belief() {
   PoseBelief belief;
-  belief.mean << 30, -20, 2, 0.7, 0.02, -0.01, 0.03, 0.01, -0.02, 11, 0.15, 0.04, 0.02, -0.005;
+  belief.x << 30, -20, 2, 0.7, 0.02, -0.01, 0.03, 0.01, -0.02, 11, 0.15, 0.04, 0.02, -0.005;
   StateVector sigmas;
   sigmas << 0.1, 0.15, 0.2, 0.02, 0.01, 0.015, 0.01, 0.004, 0.004, 0.5, 0.1, 0.01, 0.02, 0.01;
-  belief.covariance = sigmas.cwiseAbs2().asDiagonal();
-  belief.covariance(kEast, kHeading) = belief.covariance(kHeading, kEast) = 0.5 * 0.1 * 0.02;
-  belief.covariance(kSpeed, kNorth) = belief.covariance(kNorth, kSpeed) = -0.4 * 0.5 * 0.15;
+  belief.P = sigmas.cwiseAbs2().asDiagonal();
+  belief.P(kEast, kHeading) = belief.P(kHeading, kEast) = 0.5 * 0.1 * 0.02;
+  belief.P(kSpeed, kNorth) = belief.P(kNorth, kSpeed) = -0.4 * 0.5 * 0.15;
   return belief;
 }
 
-// Drives small steps of time under white noise of acceleration, yaw acceleration, slip and
-// mounting; the camera tilts once, for a frame.
+// Simulates small time steps with white noise of acceleration, yaw acceleration, slip and mounting;
+// the camera tilts once per frame.
 class NoisyDrive {
  public:
   NoisyDrive(double slope, const PoseMotionSettings& settings)
@@ -53,7 +53,7 @@ class NoisyDrive {
   StateVector drawn(const PoseBelief& belief) {
     StateVector unit;
     for (double& value : unit) value = normal_(random_);
-    return belief.mean + belief.covariance.llt().matrixL() * unit;
+    return belief.x + belief.P.llt().matrixL() * unit;
   }
 
  private:
@@ -82,14 +82,14 @@ TEST(PoseBelief, PredictsWhatManyNoisyDrivesGive) {
   for (const StateVector& state : states) {
     covariance += (state - mean) * (state - mean).transpose() / kDrives;
   }
-  const PoseBelief after = tilted(predicted(before, kElapsedS, kSlope, settings), settings);
+  const PoseBelief after = add_tilt_noise(predict(before, kElapsedS, kSlope, settings), settings);
   for (int i = 0; i < kStates; ++i) {
-    const double variance_i = after.covariance(i, i);
-    EXPECT_NEAR(mean[i], after.mean[i], 5 * std::sqrt(variance_i / kDrives)) << i;
+    const double variance_i = after.P(i, i);
+    EXPECT_NEAR(mean[i], after.x[i], 5 * std::sqrt(variance_i / kDrives)) << i;
     for (int j = 0; j <= i; ++j) {
-      const double expected = after.covariance(i, j);
+      const double expected = after.P(i, j);
       const double sampling_error =
-          std::sqrt((variance_i * after.covariance(j, j) + expected * expected) / kDrives);
+          std::sqrt((variance_i * after.P(j, j) + expected * expected) / kDrives);
       EXPECT_NEAR(covariance(i, j), expected, 4 * sampling_error) << i << ", " << j;
     }
   }
@@ -100,91 +100,91 @@ TEST(PoseBelief, PassesEachUncertaintyOnAsTheMeanMoves) {  // derivatives agains
   constexpr double kSlope = -0.03;
   const PoseMotionSettings settings;
   PoseBelief certain = driving_belief();
-  certain.covariance.setZero();
-  const StateMatrix noise = predicted(certain, kElapsedS, kSlope, settings).covariance;
+  certain.P.setZero();
+  const StateMatrix noise = predict(certain, kElapsedS, kSlope, settings).P;
   for (int j = 0; j < kStates; ++j) {
-    constexpr double kStep = 1e-4;
+    constexpr double kDifference = 1e-4;
     PoseBelief less = certain;
     PoseBelief more = certain;
-    less.mean[j] -= kStep;
-    more.mean[j] += kStep;
-    const StateVector by_j = (predicted(more, kElapsedS, kSlope, settings).mean -
-                              predicted(less, kElapsedS, kSlope, settings).mean) /
-                             (2 * kStep);
+    less.x[j] -= kDifference;
+    more.x[j] += kDifference;
+    const StateVector by_j = (predict(more, kElapsedS, kSlope, settings).x -
+                              predict(less, kElapsedS, kSlope, settings).x) /
+                             (2 * kDifference);
     PoseBelief unsure = certain;
-    unsure.covariance(j, j) = 1;
-    const StateMatrix passed_on = predicted(unsure, kElapsedS, kSlope, settings).covariance - noise;
+    unsure.P(j, j) = 1;
+    const StateMatrix passed_on = predict(unsure, kElapsedS, kSlope, settings).P - noise;
     EXPECT_LT((passed_on - by_j * by_j.transpose()).cwiseAbs().maxCoeff(), 1e-6) << j;
   }
 }
 
 TEST(PoseBelief, DrivesAnArc) {
   PoseBelief belief;
-  belief.mean[kHeading] = 0.3;
-  belief.mean[kMounting] = 0.3;  // so it drives to the north
-  belief.mean[kSpeed] = 10;
-  belief.mean[kYawRate] = 0.2;
-  for (int i = 0; i < 100; ++i) belief = predicted(belief, 0.05, 0, {});
+  belief.x[kHeading] = 0.3;
+  belief.x[kMounting] = 0.3;  // so it drives to the north
+  belief.x[kSpeed] = 10;
+  belief.x[kYawRate] = 0.2;
+  for (int i = 0; i < 100; ++i) belief = predict(belief, 0.05, 0, {});
   const double radius_m = 10 / 0.2;
-  EXPECT_NEAR(belief.mean[kEast], radius_m * (1 - std::cos(1.0)), 1e-3);
-  EXPECT_NEAR(belief.mean[kNorth], radius_m * std::sin(1.0), 1e-3);
-  EXPECT_NEAR(belief.mean[kHeading], 1.3, 1e-12);
+  EXPECT_NEAR(belief.x[kEast], radius_m * (1 - std::cos(1.0)), 1e-3);
+  EXPECT_NEAR(belief.x[kNorth], radius_m * std::sin(1.0), 1e-3);
+  EXPECT_NEAR(belief.x[kHeading], 1.3, 1e-12);
 }
 
 TEST(PoseBelief, StandsStill) {
   PoseBelief before = driving_belief();
-  before.mean[kSpeed] = before.mean[kYawRate] = 0;
-  const PoseBelief after = predicted(before, 2, 0.1, {});
-  EXPECT_EQ(after.mean, before.mean);
-  EXPECT_GT(after.covariance(kEast, kEast), before.covariance(kEast, kEast));
-  // A camera that stands learns nothing new of where its mounting would lead it.
-  EXPECT_EQ(after.covariance(kEast, kMounting), 0);
+  before.x[kSpeed] = before.x[kYawRate] = 0;
+  const PoseBelief after = predict(before, 2, 0.1, {});
+  EXPECT_EQ(after.x, before.x);
+  EXPECT_GT(after.P(kEast, kEast), before.P(kEast, kEast));
+  // A camera at standstill gains no information about its mounting.
+  EXPECT_EQ(after.P(kEast, kMounting), 0);
 }
 
-TEST(PoseBelief, WheelsCountByTheirSigma) {
-  PoseBelief before = driving_belief();  // 11 m/s, give or take 0.5
-  before.mean[kWheelScale] = before.mean[kYawRateBias] = 0;
-  before.covariance(kWheelScale, kWheelScale) = before.covariance(kYawRateBias, kYawRateBias) = 0;
-  WheelSettings wheels;
-  wheels.speed_sigma_mps = 0.5;
-  wheels.yaw_rate_sigma = 0.1;  // as the belief's
-  const PoseBelief after = with_wheels(before, 10, 0.25, wheels);
-  EXPECT_NEAR(after.mean[kSpeed], 10.5, 1e-12);
-  EXPECT_NEAR(after.mean[kYawRate], 0.2, 1e-12);
-  EXPECT_NEAR(after.covariance(kSpeed, kSpeed), 0.5 * 0.5 / 2, 1e-12);
-  EXPECT_NEAR(after.covariance(kYawRate, kYawRate), 0.1 * 0.1 / 2, 1e-12);
+TEST(PoseBelief, OdometryIsWeightedByItsSigma) {
+  PoseBelief before = driving_belief();  // 11 m/s, sigma 0.5
+  before.x[kOdometryScale] = before.x[kYawRateBias] = 0;
+  before.P(kOdometryScale, kOdometryScale) = before.P(kYawRateBias, kYawRateBias) = 0;
+  OdometrySettings odometry;
+  odometry.speed_sigma_mps = 0.5;
+  odometry.yaw_rate_sigma = 0.1;  // as the belief's
+  const PoseBelief after = odometry_update(before, 10, 0.25, odometry);
+  EXPECT_NEAR(after.x[kSpeed], 10.5, 1e-12);
+  EXPECT_NEAR(after.x[kYawRate], 0.2, 1e-12);
+  EXPECT_NEAR(after.P(kSpeed, kSpeed), 0.5 * 0.5 / 2, 1e-12);
+  EXPECT_NEAR(after.P(kYawRate, kYawRate), 0.1 * 0.1 / 2, 1e-12);
   // North goes with speed by -0.4 of the sigmas, so it is corrected with it; heading is not.
-  EXPECT_NEAR(after.mean[kNorth], before.mean[kNorth] + 0.4 * 0.15 / 0.5 * 0.5, 1e-12);
-  EXPECT_LT(after.covariance(kNorth, kNorth), before.covariance(kNorth, kNorth));
-  EXPECT_EQ(after.mean[kHeading], before.mean[kHeading]);
-  EXPECT_LT((after.covariance - after.covariance.transpose()).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_NEAR(after.x[kNorth], before.x[kNorth] + 0.4 * 0.15 / 0.5 * 0.5, 1e-12);
+  EXPECT_LT(after.P(kNorth, kNorth), before.P(kNorth, kNorth));
+  EXPECT_EQ(after.x[kHeading], before.x[kHeading]);
+  EXPECT_LT((after.P - after.P.transpose()).cwiseAbs().maxCoeff(), 1e-15);
 }
 
-TEST(PoseBelief, LearnsWhatTheWheelsGetWrong) {
+TEST(PoseBelief, EstimatesOdometryScaleAndBias) {
   PoseBelief belief = driving_belief();
-  belief.mean[kWheelScale] = belief.mean[kYawRateBias] = 0;
+  belief.x[kOdometryScale] = belief.x[kYawRateBias] = 0;
   const auto know = [&](PoseState state, double value, double sigma) {
-    belief.mean[state] = value;
-    belief.covariance.row(state).setZero();
-    belief.covariance.col(state).setZero();
-    belief.covariance(state, state) = sigma * sigma;
+    belief.x[state] = value;
+    belief.P.row(state).setZero();
+    belief.P.col(state).setZero();
+    belief.P(state, state) = sigma * sigma;
   };
   for (int i = 0; i < 200; ++i) {
-    know(kSpeed, 10, 0.01);  // as many landmarks say
+    know(kSpeed, 10, 0.01);  // as if by many landmarks
     know(kYawRate, 0.1, 0.001);
-    belief = with_wheels(belief, 10.2, 0.092, {});
+    belief = odometry_update(belief, 10.2, 0.092, {});
   }
-  EXPECT_NEAR(belief.mean[kWheelScale], 0.02, 0.001);
-  EXPECT_NEAR(belief.mean[kYawRateBias], -0.008, 0.001);
-  EXPECT_LT(std::sqrt(belief.covariance(kWheelScale, kWheelScale)), 0.002);
-  know(kSpeed, 10, 5);  // and then nothing but the wheels do
-  EXPECT_NEAR(with_wheels(belief, 5.1, 0.1, {}).mean[kSpeed], 5, 0.02);
+  EXPECT_NEAR(belief.x[kOdometryScale], 0.02, 0.001);
+  EXPECT_NEAR(belief.x[kYawRateBias], -0.008, 0.001);
+  EXPECT_LT(std::sqrt(belief.P(kOdometryScale, kOdometryScale)), 0.002);
+  know(kSpeed, 10, 5);  // and then only odometry is left
+  EXPECT_NEAR(odometry_update(belief, 5.1, 0.1, {}).x[kSpeed], 5, 0.02);
 }
 
 TEST(PoseBelief, ClimbsWithTheRoad) {
   PoseBelief before = driving_belief();
-  const PoseBelief after = predicted(before, 0.5, 0.08, {});
-  EXPECT_DOUBLE_EQ(after.mean[kUp], before.mean[kUp] + 11 * 0.5 * 0.08);
+  const PoseBelief after = predict(before, 0.5, 0.08, {});
+  EXPECT_DOUBLE_EQ(after.x[kUp], before.x[kUp] + 11 * 0.5 * 0.08);
 }
 
 }  // namespace

@@ -12,18 +12,18 @@ using testing::kSceneCamera;
 using testing::LandmarkScene;
 using testing::position_error_m;
 
-// Fifty matches, 30 of them wrong, and a belief as vague as that of a start.
+// Fifty matches, 30 of them outliers, and a belief as uncertain as at a start.
 struct MostlyWrong {
   LandmarkScene scene{50};
   PoseBelief before;
-  PoseSolverSettings solver{.iterations = 1};  // so it must begin near
+  PoseSolverSettings solver{.iterations = 1};  // so it must start near the solution
 
   MostlyWrong() {
     for (std::size_t i = 0; i < 30; ++i) scene.matches[i].landmark = (7 * i + 11) % 50;
     before = LandmarkScene::belief(scene.state(), 2, 1);
-    before.covariance(kHeading, kHeading) = std::pow(10 * kRadPerDeg, 2);
-    before.mean.head<3>() += Eigen::Vector3d(3, -2, 0.3);
-    before.mean[kHeading] -= 15 * kRadPerDeg;
+    before.P(kHeading, kHeading) = std::pow(10 * kRadPerDeg, 2);
+    before.x.head<3>() += Eigen::Vector3d(3, -2, 0.3);
+    before.x[kHeading] -= 15 * kRadPerDeg;
   }
 
   std::optional<PoseEstimate> estimate() const {
@@ -37,8 +37,8 @@ TEST(PoseConsensus, FindsThePoseAmongWrongMatches) {
   const LandmarkScene& scene = matches.scene;
   const PoseSolver solver(kSceneCamera, scene.features, scene.landmarks, matches.solver);
   const PoseBelief& before = matches.before;
-  const PoseEstimate from_belief = solver.estimate(before, before.mean, scene.matches);
-  ASSERT_GT(position_error_m(from_belief.belief, scene.pose), 1);  // not found without draws
+  const PoseEstimate from_belief = solver.estimate(before, before.x, scene.matches);
+  ASSERT_GT(position_error_m(from_belief.belief, scene.pose), 1);  // not found without sampling
 
   const auto estimate = matches.estimate();
   ASSERT_TRUE(estimate);
@@ -53,8 +53,8 @@ TEST(PoseConsensus, GivesTheSameTwice) {
   const auto once = matches.estimate();
   const auto twice = matches.estimate();
   ASSERT_TRUE(once && twice);
-  EXPECT_EQ(once->belief.mean, twice->belief.mean);
-  EXPECT_EQ(once->belief.covariance, twice->belief.covariance);
+  EXPECT_EQ(once->belief.x, twice->belief.x);
+  EXPECT_EQ(once->belief.P, twice->belief.P);
 }
 
 TEST(PoseConsensus, NeedsTwoMatches) {
@@ -77,12 +77,12 @@ TEST(AlongByScale, IsExactOnAStraightLine) {
   const EnuPoint at = window.enu_from_geo(line->point_at(kAlongM));
   pose.enu_m = {at.east_m, at.north_m, at.up_m};
   pose.heading_rad = line->heading_deg_at(kAlongM) * kRadPerDeg;
-  std::vector<PlacedLandmark> landmarks;
+  std::vector<LocalLandmark> landmarks;
   std::vector<Feature> features;
   std::vector<LandmarkMatch> matches;
   for (const double x_m : {-6.0, 1.0, 9.0}) {
     const Eigen::Vector3d seen(x_m, -1, 22 + x_m);
-    PlacedLandmark landmark =
+    LocalLandmark landmark =
         testing::landmark_at(pose.enu_m + camera_from_enu(pose).transpose() * seen, 0.3);
     landmark.along = {40, 56};
     landmark.size_sigma = 0.03;
@@ -95,7 +95,7 @@ TEST(AlongByScale, IsExactOnAStraightLine) {
       along_by_scale(matches, features, landmarks, kSceneCamera, *line, window, 0.04);
   ASSERT_EQ(estimates.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
-    const double depth_m = seen_from(pose, landmarks[i].enu_m).z();
+    const double depth_m = point_in_camera(pose, landmarks[i].enu_m).z();
     EXPECT_NEAR(estimates[i].along_m, kAlongM, 2e-3);
     EXPECT_NEAR(estimates[i].sigma_m, std::hypot(0.05 * depth_m, 0.5), 1e-4);
   }

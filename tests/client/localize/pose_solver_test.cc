@@ -18,13 +18,13 @@ using testing::kSceneCamera;
 using testing::LandmarkScene;
 using testing::position_error_m;
 
-constexpr double kNothing = 1e4;  // a sigma that says nothing
+constexpr double kNothing = 1e4;  // an uninformative sigma
 
 PoseSolver solver_of(const LandmarkScene& scene, const PoseSolverSettings& settings = {}) {
   return {kSceneCamera, scene.features, scene.landmarks, settings};
 }
 
-// The truth, moved by `metres` in each direction and turned by `degrees` about each axis.
+// The true state, moved by `metres` per axis and rotated by `degrees` about each axis.
 StateVector beside(const LandmarkScene& scene, double metres, double degrees) {
   StateVector state = scene.state();
   state.head<3>() += Eigen::Vector3d(metres, -metres, metres / 2);
@@ -41,10 +41,10 @@ TEST(PoseSolver, FindsTheExactPoseFromExactFeatures) {
   EXPECT_LT(position_error_m(estimate.belief, scene.pose), 1e-4);  // features are floats
   EXPECT_LT(angle_error_deg(estimate.belief, scene.pose), 1e-4);
   EXPECT_EQ(estimate.agreeing.size(), scene.matches.size());
-  EXPECT_NEAR(estimate.belief.mean[kSpeed], start[kSpeed], 1e-6);
+  EXPECT_NEAR(estimate.belief.x[kSpeed], start[kSpeed], 1e-6);
 }
 
-// Newton's steps double the digits only where the derivatives are right.
+// Newton steps double the number of digits only if the derivatives are right.
 TEST(PoseSolver, ConvergesWithinFewSteps) {
   const LandmarkScene scene(60);
   const StateVector start = beside(scene, 0.02, 0.05);
@@ -62,9 +62,8 @@ TEST(PoseSolver, DerivativesAreThoseOfTheSquaredPixelErrors) {
   settings.scale_sigma = kNothing;
   const PoseSolver solver = solver_of(scene, settings);
   const PoseBelief before = LandmarkScene::belief(scene.state(), 1, 1);
-  const PoseEstimate estimate = solver.estimate(before, before.mean, scene.matches);
-  const StateMatrix information =
-      estimate.belief.covariance.inverse() - before.covariance.inverse();
+  const PoseEstimate estimate = solver.estimate(before, before.x, scene.matches);
+  const StateMatrix information = estimate.belief.P.inverse() - before.P.inverse();
 
   const auto half_squares = [&](const StateVector& state) {
     double sum = 0;
@@ -101,21 +100,21 @@ TEST(PoseSolver, FindsHowFarTheCalibrationIsOff) {
   wrong.focal_y_px *= 1.05;
   wrong.principal_x_px += 0.01 * wrong.focal_x_px;
   PoseBelief before = LandmarkScene::belief(scene.state(), 1, 3);
-  before.mean[kEast] += 0.3;
-  for (const int i : {kLogFocal, kPrincipalX, kPrincipalY}) before.covariance(i, i) = 0.01;
+  before.x[kEast] += 0.3;
+  for (const int i : {kLogFocal, kPrincipalX, kPrincipalY}) before.P(i, i) = 0.01;
   const PoseSolver solver(wrong, scene.features, scene.landmarks, {});
-  const PoseEstimate estimate = solver.estimate(before, before.mean, scene.matches);
+  const PoseEstimate estimate = solver.estimate(before, before.x, scene.matches);
   EXPECT_EQ(estimate.agreeing.size(), scene.matches.size());
   EXPECT_LT(position_error_m(estimate.belief, scene.pose), 0.02);
-  EXPECT_NEAR(estimate.belief.mean[kLogFocal], -std::log(1.05), 1e-3);
-  EXPECT_NEAR(estimate.belief.mean[kPrincipalX], -0.01, 1e-3);
-  EXPECT_NEAR(estimate.belief.mean[kPrincipalY], 0, 1e-3);
+  EXPECT_NEAR(estimate.belief.x[kLogFocal], -std::log(1.05), 1e-3);
+  EXPECT_NEAR(estimate.belief.x[kPrincipalX], -0.01, 1e-3);
+  EXPECT_NEAR(estimate.belief.x[kPrincipalY], 0, 1e-3);
 }
 
-TEST(PoseSolver, ItsCovarianceIsHonest) {
+TEST(PoseSolver, ItsCovarianceIsConsistent) {
   constexpr int kTrials = 300;
   PoseSolverSettings settings;
-  settings.cauchy = settings.cutoff = 100;  // the noise is Gauss's: nothing is cut off
+  settings.cauchy = settings.cutoff = 100;  // Gaussian noise: nothing is cut off
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   double sum = 0;
@@ -125,10 +124,10 @@ TEST(PoseSolver, ItsCovarianceIsHonest) {
     const PoseBelief spread = LandmarkScene::belief(scene.state(), 0.3, 0.5);
     PoseBelief before = spread;
     for (int i = 0; i < kStates; ++i) {
-      before.mean[i] += std::sqrt(spread.covariance(i, i)) * normal(random);
+      before.x[i] += std::sqrt(spread.P(i, i)) * normal(random);
     }
     for (std::size_t i = 0; i < scene.landmarks.size(); ++i) {
-      PlacedLandmark& landmark = scene.landmarks[i];
+      LocalLandmark& landmark = scene.landmarks[i];
       Feature& feature = scene.features[i];
       const double pixel_sigma_px =
           std::hypot(settings.pixel_sigma_px, settings.pixel_per_scale * feature.scale_px);
@@ -143,9 +142,9 @@ TEST(PoseSolver, ItsCovarianceIsHonest) {
       landmark.enu_m += landmark.depth_sigma_m * normal(random) * landmark.mapping_ray;
     }
     const PoseEstimate estimate =
-        solver_of(scene, settings).estimate(before, before.mean, scene.matches);
-    const Eigen::Matrix<double, 6, 1> error = (estimate.belief.mean - scene.state()).head<6>();
-    const Eigen::Matrix<double, 6, 6> covariance = estimate.belief.covariance.topLeftCorner<6, 6>();
+        solver_of(scene, settings).estimate(before, before.x, scene.matches);
+    const Eigen::Matrix<double, 6, 1> error = (estimate.belief.x - scene.state()).head<6>();
+    const Eigen::Matrix<double, 6, 6> covariance = estimate.belief.P.topLeftCorner<6, 6>();
     const double normalized = error.dot(covariance.inverse() * error);
     sum += normalized;
     if (normalized < 12.59) ++within;  // 95 % of chi squared of six degrees of freedom
@@ -158,19 +157,19 @@ TEST(PoseSolver, WrongMatchesDoNotMoveIt) {
   LandmarkScene scene(60);
   const PoseBelief before = LandmarkScene::belief(beside(scene, 0.2, 0.5), 0.5, 1);
   for (std::size_t i = 0; i < 24; ++i) scene.matches[i].landmark = 59 - i;  // 40 %
-  const PoseEstimate estimate = solver_of(scene).estimate(before, before.mean, scene.matches);
+  const PoseEstimate estimate = solver_of(scene).estimate(before, before.x, scene.matches);
   EXPECT_LT(position_error_m(estimate.belief, scene.pose), 0.01);
   EXPECT_LT(angle_error_deg(estimate.belief, scene.pose), 0.05);
   EXPECT_GE(estimate.agreeing.size(), 36U);
   EXPECT_LE(estimate.agreeing.size(), 38U);
   for (const LandmarkMatch& match : estimate.agreeing) {
-    EXPECT_LT(solver_of(scene).pixel_sigmas(estimate.belief.mean, {match}).front(),
+    EXPECT_LT(solver_of(scene).pixel_sigmas(estimate.belief.x, {match}).front(),
               PoseSolverSettings().cutoff);
   }
 }
 
-// Two landmarks far ahead: their bearings hardly change along the way, their scales do.
-TEST(PoseSolver, OfFewLandmarksScaleDecidesAlong) {
+// Two landmarks far ahead: along the road their bearings hardly change, their scales do.
+TEST(PoseSolver, WithFewLandmarksScaleDeterminesArcLength) {
   LandmarkScene scene(0);
   const Eigen::Matrix3d enu_from_camera = camera_from_enu(scene.pose).transpose();
   for (const double x_m : {-0.5, 0.5}) {
@@ -182,16 +181,16 @@ TEST(PoseSolver, OfFewLandmarksScaleDecidesAlong) {
   }
   const Eigen::Vector3d ahead = enu_from_camera.col(2);
   PoseBelief before = LandmarkScene::belief(scene.state(), 0.1, 1);
-  before.mean.head<3>() -= 2 * ahead;
-  before.covariance.topLeftCorner<3, 3>() += 9 * ahead * ahead.transpose();
+  before.x.head<3>() -= 2 * ahead;
+  before.P.topLeftCorner<3, 3>() += 9 * ahead * ahead.transpose();
   const auto along = [&](double scale_sigma) {
     PoseSolverSettings settings;
     settings.scale_sigma = scale_sigma;
     settings.shared_scale_sigma = 1e-4;
     const PoseBelief after =
-        solver_of(scene, settings).estimate(before, before.mean, scene.matches).belief;
-    const Eigen::Matrix3d covariance = after.covariance.topLeftCorner<3, 3>();
-    return std::pair(ahead.dot(after.mean.head<3>() - scene.pose.enu_m),
+        solver_of(scene, settings).estimate(before, before.x, scene.matches).belief;
+    const Eigen::Matrix3d covariance = after.P.topLeftCorner<3, 3>();
+    return std::pair(ahead.dot(after.x.head<3>() - scene.pose.enu_m),
                      std::sqrt(ahead.dot(covariance * ahead)));
   };
   const auto [error_m, sigma_m] = along(0.02);
@@ -202,7 +201,8 @@ TEST(PoseSolver, OfFewLandmarksScaleDecidesAlong) {
   EXPECT_GT(blind_sigma_m, 1.5);
 }
 
-// A frame out of focus has all its features larger by a part: no number of them averages that out.
+// In a frame out of focus all features are larger by the same factor, which no number of them
+// averages out.
 TEST(PoseSolver, WhatAllScalesShareIsNotAveragedOut) {
   LandmarkScene scene(0);
   const Eigen::Matrix3d enu_from_camera = camera_from_enu(scene.pose).transpose();
@@ -217,11 +217,11 @@ TEST(PoseSolver, WhatAllScalesShareIsNotAveragedOut) {
   }
   const Eigen::Vector3d ahead = enu_from_camera.col(2);
   PoseBelief before = LandmarkScene::belief(scene.state(), 0.1, 1);
-  before.covariance.topLeftCorner<3, 3>() += 9 * ahead * ahead.transpose();
-  const PoseBelief after = solver_of(scene).estimate(before, before.mean, scene.matches).belief;
-  const Eigen::Matrix3d covariance = after.covariance.topLeftCorner<3, 3>();
+  before.P.topLeftCorner<3, 3>() += 9 * ahead * ahead.transpose();
+  const PoseBelief after = solver_of(scene).estimate(before, before.x, scene.matches).belief;
+  const Eigen::Matrix3d covariance = after.P.topLeftCorner<3, 3>();
   const double sigma_m = std::sqrt(ahead.dot(covariance * ahead));
-  EXPECT_LT(std::abs(ahead.dot(after.mean.head<3>() - scene.pose.enu_m)), 2.5 * sigma_m);
+  EXPECT_LT(std::abs(ahead.dot(after.x.head<3>() - scene.pose.enu_m)), 2.5 * sigma_m);
   EXPECT_GT(sigma_m, 0.5);  // 0.12 of 40 m by a hundred would be 0.48
   EXPECT_LT(sigma_m, kDepthM * 0.06);
 }
@@ -230,20 +230,20 @@ TEST(PoseSolver, WithoutMatchesItGivesTheBeliefBack) {
   const LandmarkScene scene(5);
   const PoseBelief before = LandmarkScene::belief(beside(scene, 0.5, 2), 0.5, 1);
   const PoseEstimate estimate = solver_of(scene).estimate(before, scene.state(), {});
-  EXPECT_LT((estimate.belief.mean - before.mean).norm(), 1e-9);
-  EXPECT_LT((estimate.belief.covariance - before.covariance).norm(), 1e-9);
+  EXPECT_LT((estimate.belief.x - before.x).norm(), 1e-9);
+  EXPECT_LT((estimate.belief.P - before.P).norm(), 1e-9);
   EXPECT_TRUE(estimate.agreeing.empty());
 }
 
 TEST(PoseSolver, TwoMatchesCompleteTheBeliefToAPose) {
   LandmarkScene scene(2);
   PoseBelief before = LandmarkScene::belief(scene.state(), 2, 0.1);
-  before.covariance(kHeading, kHeading) = std::pow(6 * kRadPerDeg, 2);
-  before.mean[kEast] += 1.5;
-  before.mean[kNorth] -= 1;
-  before.mean[kHeading] += 5 * kRadPerDeg;
+  before.P(kHeading, kHeading) = std::pow(6 * kRadPerDeg, 2);
+  before.x[kEast] += 1.5;
+  before.x[kNorth] -= 1;
+  before.x[kHeading] += 5 * kRadPerDeg;
   const StateVector proposed =
-      solver_of(scene).hypothesis(before, before.covariance.inverse(), scene.matches);
+      solver_of(scene).hypothesis(before, before.P.inverse(), scene.matches);
   EXPECT_NEAR(proposed[kEast], scene.pose.enu_m.x(), 0.1);
   EXPECT_NEAR(proposed[kNorth], scene.pose.enu_m.y(), 0.1);
   EXPECT_NEAR(proposed[kHeading], scene.pose.heading_rad, 0.3 * kRadPerDeg);
@@ -255,7 +255,7 @@ TEST(PoseSolver, ALandmarkBehindTheCameraAgreesWithNothing) {
   const PoseBelief before = LandmarkScene::belief(beside(scene, 0.1, 0.1), 0.5, 1);
   EXPECT_EQ(solver_of(scene).pixel_sigmas(scene.state(), {{0, 0}}).front(),
             std::numeric_limits<double>::infinity());
-  const PoseEstimate estimate = solver_of(scene).estimate(before, before.mean, scene.matches);
+  const PoseEstimate estimate = solver_of(scene).estimate(before, before.x, scene.matches);
   EXPECT_LT(position_error_m(estimate.belief, scene.pose), 0.01);
   EXPECT_EQ(estimate.agreeing.size(), 19U);
 }
@@ -274,8 +274,8 @@ TEST(PoseSolver, AFeatureIsAsUncertainAsItIsLarge) {
   }
 }
 
-// A landmark is uncertain along the ray that it was mapped by: from the side that ray is an error
-// of pixels, along it it is none.
+// A landmark is uncertain along its mapping ray: from the side this is a pixel error, along the ray
+// it is none.
 TEST(PoseSolver, DepthIsUncertainAlongTheMappingRay) {
   LandmarkScene scene(1);
   scene.features[0].x_px += 20;
@@ -283,7 +283,7 @@ TEST(PoseSolver, DepthIsUncertainAlongTheMappingRay) {
   const Eigen::Matrix3d enu_from_camera = camera_from_enu(scene.pose).transpose();
   scene.landmarks[0].mapping_ray = (scene.landmarks[0].enu_m - scene.pose.enu_m).normalized();
   const double as_mapped = solver_of(scene).pixel_sigmas(scene.state(), {{0, 0}}).front();
-  scene.landmarks[0].mapping_ray = enu_from_camera.col(0);  // mapped across
+  scene.landmarks[0].mapping_ray = enu_from_camera.col(0);  // mapped from the side
   const double from_aside = solver_of(scene).pixel_sigmas(scene.state(), {{0, 0}}).front();
   EXPECT_GT(as_mapped, 10);
   EXPECT_LT(from_aside, 2);

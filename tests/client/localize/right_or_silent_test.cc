@@ -1,4 +1,4 @@
-// The localizer by landmarks where its belief is wrong: it says so, or nothing.
+// The localizer with landmarks when its belief is wrong: it reports this, or nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,22 +12,22 @@ namespace {
 using testing::LandmarkRoad;
 using testing::RoadPose;
 
-constexpr double kFrameM = 1;     // between frames ...
-constexpr double kSpeedMps = 10;  // ... at this speed
+constexpr double kStepM = 1;        // between frames ...
+constexpr double kVehicleMps = 10;  // ... at this speed
 constexpr double kReceiverSigmaM = 5;
 
 class RightOrSilent : public ::testing::Test {
  protected:
   static const LandmarkRoad& road() { return testing::shared_road(); }
 
-  // The fix of the next frame, taken there.
-  Fix fix(const RoadPose& truth) { return fix_of(road().seen_from(truth, 0, random_)); }
+  // The fix of the next frame, taken at this pose.
+  Fix fix(const RoadPose& truth) { return fix_of(road().observe(truth, 0, random_)); }
 
   Fix fix_of(const FeatureSet& set) {
     testing::wait_for_tiles(localizer_, time_s_);
     const auto fix = localizer_.localize(
         {time_s_, [&](const FeatureParameters&) -> const FeatureSet& { return set; }});
-    time_s_ += kFrameM / kSpeedMps;
+    time_s_ += kStepM / kVehicleMps;
     EXPECT_TRUE(fix.ok()) << fix.error().line();
     return fix.ok() ? *fix : Fix();
   }
@@ -36,17 +36,17 @@ class RightOrSilent : public ::testing::Test {
     localizer_.observe({time_s_, road().line().point_at(along_m), kReceiverSigmaM});
   }
 
-  // Tracks from 100 m to where it is then, without the receiver.
+  // Tracks from 100 m to the returned arc length, without GNSS.
   double track() {
     receive(102);
     double along_m = 100;
     FixStatus status = FixStatus::initializing;
-    for (; along_m < 150; along_m += kFrameM) status = fix({along_m, 0, 0}).status;
+    for (; along_m < 150; along_m += kStepM) status = fix({along_m, 0, 0}).status;
     EXPECT_EQ(status, FixStatus::tracking);
     return along_m;
   }
 
-  // Off by more than a metre and five sigmas, in plan.
+  // Whether the horizontal error is more than a metre and five sigmas.
   static bool is_confidently_wrong(const Fix& fix, const RoadPose& truth) {
     if (!fix.along_m) return false;
     const double off_m = std::hypot(*fix.along_m - truth.along_m, *fix.lateral_m - truth.lateral_m);
@@ -64,7 +64,7 @@ class RightOrSilent : public ::testing::Test {
   std::mt19937 random_{11};
 };
 
-// By how much the belief is pushed in mid-drive.
+// The error introduced into the belief during the drive.
 struct Push {
   double along_m = 0;
   double lateral_m = 0;
@@ -79,9 +79,9 @@ TEST_P(PushedAway, ItIsLostWithinFiveFramesAndClaimsNothingMeanwhile) {
     last = fix(truth);
     EXPECT_FALSE(is_confidently_wrong(last, truth))
         << frame << ": " << last.along_m.value_or(-1) << " at " << last.sigma_m;
-    truth.along_m += kFrameM;
+    truth.along_m += kStepM;
   }
-  truth.along_m -= kFrameM;
+  truth.along_m -= kStepM;
   EXPECT_TRUE(is_right(last, truth) || last.status == FixStatus::lost ||
               last.status == FixStatus::initializing)
       << name_of(last.status);
@@ -91,7 +91,7 @@ TEST_P(PushedAway, TheReceiverBringsItBack) {
   RoadPose truth{track() + GetParam().along_m, GetParam().lateral_m, 0};
   int frames = 0;
   for (Fix found; !is_right(found, truth) && frames < 30; ++frames) {
-    truth.along_m += kFrameM;
+    truth.along_m += kStepM;
     receive(truth.along_m + 3);
     found = fix(truth);
     EXPECT_FALSE(is_confidently_wrong(found, truth)) << frames;
@@ -99,11 +99,11 @@ TEST_P(PushedAway, TheReceiverBringsItBack) {
   EXPECT_LT(frames, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(AlongAndAcross, PushedAway,
+INSTANTIATE_TEST_SUITE_P(ArcLengthAndLateral, PushedAway,
                          ::testing::Values(Push{5, 0}, Push{10, 0}, Push{20, 0}, Push{30, 0},
                                            Push{-10, 0}, Push{0, 3}, Push{0, -8}));
 
-// Features that are no landmarks, as many as elsewhere.
+// Features that belong to no landmarks, as many as usual.
 FeatureSet unknown_road(FeatureSet seen, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> x_px(0, LandmarkRoad::kWidthPx);
@@ -120,7 +120,7 @@ TEST_F(RightOrSilent, OnAnotherRoadThanTheMapsItClaimsNothing) {
   for (int frame = 0; frame < 40; ++frame) {
     receive(100 + frame);
     const RoadPose at{100.0 + frame, 0, 0};
-    const Fix nowhere = fix_of(unknown_road(road().seen_from(at, 0, random_), 1000 + frame));
+    const Fix nowhere = fix_of(unknown_road(road().observe(at, 0, random_), 1000 + frame));
     EXPECT_NE(nowhere.status, FixStatus::tracking);
     EXPECT_FALSE(nowhere.along_m) << frame;
   }
@@ -129,9 +129,9 @@ TEST_F(RightOrSilent, OnAnotherRoadThanTheMapsItClaimsNothing) {
 TEST_F(RightOrSilent, OffOnToAnUnknownRoadItIsLost) {
   double along_m = track();
   Fix fix;
-  for (int frame = 0; frame < 5; ++frame, along_m += kFrameM) {
+  for (int frame = 0; frame < 5; ++frame, along_m += kStepM) {
     receive(along_m);
-    fix = fix_of(unknown_road(road().seen_from({along_m, 0, 0}, 0, random_), 1000 + frame));
+    fix = fix_of(unknown_road(road().observe({along_m, 0, 0}, 0, random_), 1000 + frame));
     EXPECT_NE(fix.status, FixStatus::tracking);
   }
   EXPECT_EQ(fix.status, FixStatus::lost);
@@ -142,22 +142,22 @@ TEST_F(RightOrSilent, OneFrameClaimsNothing) {
   const Fix first = fix({100, 0, 0});
   EXPECT_EQ(first.status, FixStatus::initializing);
   EXPECT_NEAR(*first.along_m, 100, 0.2);
-  EXPECT_GT(first.sigma_m, 0.3);  // of all that it may be
+  EXPECT_GT(first.sigma_m, 0.3);  // of all hypotheses
   EXPECT_EQ(fix({101, 0, 0}).status, FixStatus::tracking);
 }
 
 TEST_F(RightOrSilent, ComingFromBeyondTheMapItIsOffUntilTheMapIsSeen) {
-  for (double before_m = 60; before_m > 25; before_m -= kFrameM) {
+  for (double before_m = 60; before_m > 25; before_m -= kStepM) {
     const GeoPoint start = road().line().point_at(0);
     localizer_.observe({time_s_,
                         {start.latitude_deg - before_m / 111229, start.longitude_deg, 0},
                         kReceiverSigmaM});
-    EXPECT_EQ(fix_of(unknown_road(road().seen_from({5, 0, 0}, 0, random_), 7)).status,
+    EXPECT_EQ(fix_of(unknown_road(road().observe({5, 0, 0}, 0, random_), 7)).status,
               FixStatus::off_map);
   }
   int frames = 0;
   FixStatus status = FixStatus::off_map;
-  for (double along_m = 1; status != FixStatus::tracking && frames < 10; along_m += kFrameM) {
+  for (double along_m = 1; status != FixStatus::tracking && frames < 10; along_m += kStepM) {
     receive(along_m);
     status = fix({along_m, 0, 0}).status;
     ++frames;
@@ -168,11 +168,11 @@ TEST_F(RightOrSilent, ComingFromBeyondTheMapItIsOffUntilTheMapIsSeen) {
 TEST_F(RightOrSilent, LeavingTheMapItIsOffAndStaysSo) {
   receive(570);
   double along_m = 570;
-  for (; along_m < 602; along_m += kFrameM) fix({along_m, 0, 0});
+  for (; along_m < 602; along_m += kStepM) fix({along_m, 0, 0});
   Fix fix;
   for (int frame = 0; frame < 30; ++frame) {
-    receive(LandmarkRoad::kLengthM);  // the receiver lags
-    fix = fix_of(unknown_road(road().seen_from({590, 0, 0}, 0, random_), 1000 + frame));
+    receive(LandmarkRoad::kLengthM);  // GNSS lags
+    fix = fix_of(unknown_road(road().observe({590, 0, 0}, 0, random_), 1000 + frame));
     EXPECT_NE(fix.status, FixStatus::tracking) << frame;
   }
   EXPECT_EQ(fix.status, FixStatus::off_map);

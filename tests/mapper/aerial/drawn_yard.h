@@ -1,4 +1,4 @@
-// Houses seen from above, drawn for tests: roofs on bare ground, their shadows, a hedge.
+// Aerial pictures of houses, drawn for tests: roofs on bare ground, their shadows, a hedge.
 #pragma once
 
 #include <filesystem>
@@ -36,7 +36,7 @@ Picture drawn(const Yard& yard, double metres_per_pixel = 0.1);
 void write_geotiff(const Picture& picture, const std::filesystem::path& file);
 GeoPoint geo_from_yard(const Eigen::Vector2d& yard_m);
 
-// Whether each point of the wall, 0.25 m apart, is within `reach_m` of a line of the same
+// Whether each sampled point of the wall, 0.25 m apart, is within `reach_m` of a line of the same
 // direction.
 bool is_found(const WallLine& wall, const WallLines& lines, double reach_m);
 

@@ -47,7 +47,7 @@ ExtractedWalls extract(const fs::path& file, const ExtractionSettings& settings,
   return std::move(*walls);
 }
 
-// The yard's walls in the frame of what was found.
+// The yard's walls in the ground frame of the result.
 WallLines true_walls(const Yard& yard, const GroundFrame& frame) {
   WallLines walls;
   for (const House& house : yard.houses) {

@@ -173,10 +173,11 @@ TEST(Footprints, OtherFormatsAreCalledByTheirNames) {
   EXPECT_THAT(contents(R"({"version": 0.6, "elements": []})"), HasSubstr("Overpass JSON"));
   EXPECT_THAT(contents(R"({"geometryType": "x", "features": []})"), HasSubstr("Esri JSON"));
   EXPECT_THAT(contents(geometry("MULTIPOLYGON", "[]")), HasSubstr("written \"MultiPolygon\""));
-  EXPECT_THAT(contents(geometry("Building\\n", "[]")), HasSubstr("\"Building\\n\" is not one"));
-  EXPECT_THAT(contents(std::string("\x1e") + polygon(kSquare) + "\n"), HasSubstr("a line"));
-  EXPECT_THAT(contents(polygon(kSquare) + "\r\n" + polygon(kSquare)), HasSubstr("a line"));
-  EXPECT_THAT(contents("{\"type\":\n{"), Not(HasSubstr("a line")));
+  EXPECT_THAT(contents(geometry("Building\\n", "[]")),
+              HasSubstr("\"Building\\n\" is not a GeoJSON type"));
+  EXPECT_THAT(contents(std::string("\x1e") + polygon(kSquare) + "\n"), HasSubstr("per line"));
+  EXPECT_THAT(contents(polygon(kSquare) + "\r\n" + polygon(kSquare)), HasSubstr("per line"));
+  EXPECT_THAT(contents("{\"type\":\n{"), Not(HasSubstr("per line")));
 }
 
 TEST(Footprints, AReferenceThatIsNoObjectIsRefused) {

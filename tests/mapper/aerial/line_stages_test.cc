@@ -1,4 +1,4 @@
-// The stages that have lines for input: blocks, merging, closure, corners, coverage.
+// The stages with lines as input: blocks, merging, closure, corners, coverage.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -125,7 +125,7 @@ TEST(Merging, TheLineReachesFromTheFirstEndToTheLast) {
   }
 }
 
-// A piece that is too far from the longest is near enough to what it has gathered.
+// A piece that is too far from the longest is near enough to what has been merged with it.
 TEST(Merging, GoesOnAsLongAsItGrows) {
   const WallLines lines =
       merged({line(0, 0, 10, 0), line(12, 0, 15, 0), line(10.5, 0, 11.5, 0)}, {});
@@ -222,7 +222,7 @@ TEST(Corners, WhatIsFarOrAlmostParallelStays) {
   expect_line(with_corners(flat, {})[1], flat[1]);
 }
 
-// Led to the corner, the short line would turn round.
+// Moved to the corner, the short line would be reversed.
 TEST(Corners, NoLineTurnsRound) {
   const WallLines lines = {line(0, 0, 9, 0), line(8, -0.5, 8, 1)};
   expect_line(with_corners(lines, {})[1], line(8, 0, 8, 1));
@@ -248,7 +248,7 @@ TEST(Corners, AnEndGoesToTheNearestCornerOnly) {
   expect_line(ended[2], line(10, 0, 10, -9));
 }
 
-// Half of its length is enough, wherever it lies.
+// Half of its length is enough, at any position.
 TEST(Coverage, WhatIsKnownForTheGreaterPartIsLeftOut) {
   const WallLines at_both_ends = {line(0, 0, 2, 0), line(8, 0, 10, 0)};
   EXPECT_TRUE(not_covered({line(0, 1, 10, 1)}, at_both_ends, {}).empty());

@@ -269,7 +269,7 @@ TEST(Orthoimage, TooCoarsePixelsAreRefusedBeforeTheyAreRead) {
   EXPECT_THAT(refusal(placed(folder, "EPSG:32633", {5e5, 1.3, 0, 5e6, 0, -0.3})),
               HasSubstr("is 1.3 m long"));
   EXPECT_EQ(refusal(placed(folder, "EPSG:32633", {5e5, 1, 0, 5e6, 0, -1})), "");
-  // Of a map in degrees up to a pole, pixels are wide in the south only.
+  // In a map in degrees up to a pole, pixels are wide in the south only.
   EXPECT_THAT(refusal(placed(folder, "EPSG:4326", {8, 0.335, 0, 90, 0, -1e-5})),
               AllOf(HasSubstr("corner is 1.3 m long"), HasSubstr("at most 1.2 m")));
 }
@@ -329,7 +329,7 @@ TEST(Orthoimage, GeoreferencesThatLeadNowhereAreRefused) {
            {"EPSG:4326", {8, 2e-6, 0, 90.00001, 0, -2e-6}},
            {"EPSG:4326", {359.9999, 2e-6, 0, 49, 0, -2e-6}}}) {
     EXPECT_THAT(refusal(placed(folder, reference, transform)),
-                AnyOf(HasSubstr("place on the Earth"), HasSubstr("no georeference")))
+                AnyOf(HasSubstr("position on the Earth"), HasSubstr("no georeference")))
         << reference << " " << transform[0];
   }
 }
@@ -348,7 +348,7 @@ TEST(Orthoimage, FarFinerPixelsThanAskedForAreRefused) {
   const TempFolder folder;
   const auto file = placed(folder, "EPSG:32633", {5e5, 0.004, 0, 5e6, 0, -0.004});
   EXPECT_TRUE(Orthoimage::open({file, "", {}}, 0.1).ok());
-  EXPECT_THAT(Orthoimage::open({file, "", {}}, 0.2).error().line(), HasSubstr("40 times as fine"));
+  EXPECT_THAT(Orthoimage::open({file, "", {}}, 0.2).error().line(), HasSubstr("40 times finer"));
 }
 
 // The file itself is small: it holds no pixels.
@@ -383,7 +383,7 @@ TEST(Orthoimage, AFileOfHugeTilesIsRefused) {
   }
 }
 
-// Colours of which the fourth band, tagged as transparency, has these values.
+// An image of colours with a fourth band, tagged as transparency, of these values.
 std::filesystem::path with_alpha(const TempFolder& folder,
                                  const std::function<int(int x, int y)>& alpha) {
   const std::filesystem::path file = folder / "alpha.tif";
@@ -402,7 +402,7 @@ TEST(Orthoimage, MasksAreTrustedAndDataTaggedAsMasksAreNot) {
   const TempFolder folder;
   const auto infrared = [](int x, int y) { return 40 + (7 * x + 11 * y) % 170; };
   EXPECT_EQ(distrusted(with_alpha(folder, infrared)), 4);
-  // In a frame without data, as turned images have.
+  // With a border without data, as rotated images have.
   EXPECT_EQ(distrusted(with_alpha(
                 folder, [&](int x, int y) { return std::abs(x - y) < 60 ? infrared(x, y) : 0; })),
             4);
@@ -449,7 +449,7 @@ TEST(Orthoimage, BandsCanBeChosen) {
     EXPECT_EQ(covered.at<std::uint8_t>(100, 50), 255);
     EXPECT_EQ(covered.at<std::uint8_t>(100, 150), 0);
   }
-  // A mask that the image does not call so.
+  // A mask that is not tagged as one.
   write_image(folder / "five.tif", {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_Undefined},
               [](int band, int x, int) { return band < 3        ? 90
                                                 : x < kSide / 2 ? 0
@@ -473,7 +473,7 @@ TEST(Orthoimage, BandsThatAreNotThereAreRefused) {
   EXPECT_THAT(refused({1, 2, 3, 4, 5}), HasSubstr("one to four"));
 }
 
-// A mask beside the bands, as GeoTIFFs may have it, counts however bands are chosen.
+// A mask in addition to the bands, as GeoTIFFs may have it, applies to any choice of bands.
 TEST(Orthoimage, TheFilesOwnMaskCounts) {
   const TempFolder folder;
   const std::filesystem::path file = folder / "a.tif";
@@ -502,7 +502,7 @@ TEST(Orthoimage, DamageIsTold) {
   write_image(folder / "a.tif", kRgb, [](int, int x, int y) { return (x * y) % 256; });
   std::filesystem::resize_file(folder / "a.tif", 60000);
   const Result<Orthoimage> image = Orthoimage::open({folder / "a.tif", "", {}}, 0.1);
-  if (!image.ok()) return;  // the directory of the file may be what is missing
+  if (!image.ok()) return;  // the missing part may be the file's directory
   const Result<Picture> picture = image->read(cv::Rect({0, 0}, image->size()));
   ASSERT_FALSE(picture.ok());
   EXPECT_EQ(picture.error().code, ErrorCode::corrupt);

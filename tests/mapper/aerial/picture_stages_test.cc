@@ -1,5 +1,4 @@
-// The stages that have a picture for input: edges, shadows, clutter, lines, regions, roofs, the
-// sun.
+// The stages with a picture as input: edges, shadows, clutter, lines, regions, roofs, the sun.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,12 +56,12 @@ double share_beside(const cv::Mat& mask, const PixelGrid& grid, const WallLine& 
   return static_cast<double>(hits) / points;
 }
 
-// Whether the wall's shadow falls on the ground before it.
+// Whether the wall's shadow falls on the ground in front of it.
 bool casts_shadow(const WallLine& wall, const Sun& sun) {
   return -right_of(direction_of(wall)).dot(shadow_direction(sun)) > 0.3;
 }
 
-// A roof of 12 x 8 m whose light changes by 12 grey values from end to end, without noise.
+// A roof of 12 x 8 m with a shading gradient of 12 grey values from end to end, without noise.
 Picture flat_roof_in_grass() {
   Picture picture = drawn({{24, 20}, {}, {}, 0, {}});
   picture.bgr.setTo(cv::Scalar(50, 120, 60));
@@ -103,7 +102,7 @@ TEST(EdgeMaps, LooserMapsHoldStricterOnes) {
   }
 }
 
-// A step to the right of a column, by so many grey values of blue, green and red.
+// A step to the right of a column, by these grey values of blue, green and red.
 Picture step_of(const cv::Scalar& step) {
   Picture picture = drawn({{20, 20}, {}, {}, 0, {}});
   picture.bgr.setTo(cv::Scalar::all(60));
@@ -139,7 +138,7 @@ TEST(EdgeMaps, AnEdgeReachesThePicturesBorder) {
   for (const int row : {1, 198}) EXPECT_GT(cv::countNonZero(edges.row(row)), 0) << row;
 }
 
-// In grey values a metre; where an edge fades it goes on to a part of that.
+// Thresholds in grey values per metre; a fading edge continues down to a share of that.
 TEST(EdgeMaps, AnEdgeBeginsWhereItIsStrongAndGoesOnWhereItFades) {
   Picture picture = step_of(cv::Scalar::all(0));
   for (int y = 0; y < 200; ++y) {
@@ -180,7 +179,7 @@ TEST(Shadows, TheThresholdPartsShadowFromGround) {
   EXPECT_EQ(shadow_threshold(std::array<double, 256>{}, {}), 0);
 }
 
-// The pixels of both classes count: a few dark ones are none.
+// Otsu's threshold weights both classes by size: a few dark pixels are not a shadow.
 TEST(Shadows, AFewDarkPixelsAreNoShadow) {
   std::array<double, 256> histogram{};
   histogram[40] = 10;
@@ -213,7 +212,7 @@ TEST(Shadows, TheFarBorderIsTakenAndTheWallIsKept) {
   }
 }
 
-// A shadow's sides run as the light does; what is lit elsewhere is no border of a shadow.
+// A shadow's sides are parallel to the light; other bright borders are not borders of a shadow.
 TEST(Shadows, OnlyTheFarSideIsAFarBorder) {
   const Yard yard{{40, 30}, {House{{20, 15}, 12, 8, 0}}, {0, 45}, 3, {}};
   const Picture picture = drawn(yard);
@@ -256,7 +255,7 @@ TEST(Clutter, RoughAndGreenAreMasked) {
   }
 }
 
-// The grey of ground with noise where the mask says so.
+// Grey ground with noise within the mask.
 cv::Mat noise_within(const cv::Mat& mask) {
   cv::Mat grey(mask.size(), CV_8UC1, cv::Scalar::all(128));
   cv::Mat noise(mask.size(), CV_8UC1);
@@ -351,7 +350,7 @@ TEST(ProgressiveHough, ALineOfDashesNeedsEnoughOfThem) {
   EXPECT_EQ(count_long(3, 4), 0);
 }
 
-// Narrow bars of 1 to 12 m, the longest of which are told first, as closely as rounds follow.
+// Narrow bars of 1 to 12 m; the longest are found first, to the resolution of the rounds.
 TEST(ProgressiveHough, LinesComeByTheirLength) {
   Picture picture = drawn({{40, 30}, {}, {}, 0, {}});
   picture.bgr.setTo(cv::Scalar::all(90));
@@ -436,7 +435,7 @@ TEST(Segmentation, PixelsAtACornerAreNeighbours) {
   EXPECT_EQ(found.labels.at<int>(20, 20), found.labels.at<int>(40, 40));
 }
 
-// Rough ground is one region; a step of less than its grain parts even ground.
+// Rough ground is one region; even ground is split at a step smaller than the grain of the rough.
 TEST(Segmentation, ARegionGrowsByItsOwnContrast) {
   cv::Mat lab(60, 120, CV_32FC3, cv::Scalar(50, 0, 0));
   cv::Mat noise(60, 60, CV_32FC1);
@@ -452,7 +451,7 @@ TEST(Segmentation, ARegionGrowsByItsOwnContrast) {
   EXPECT_NE(found.labels.at<int>(30, 80), found.labels.at<int>(30, 100));
 }
 
-// A small region would take in more than that; the large one beside it does not.
+// A small region would merge with more than that; the large one next to it would not.
 TEST(Segmentation, BothRegionsMustAgreeToJoin) {
   cv::Mat lab(60, 60, CV_32FC3, cv::Scalar(50, 0, 0));
   lab(cv::Rect(20, 20, 3, 3)).setTo(cv::Scalar(54, 0, 0));
@@ -473,7 +472,7 @@ TEST(Regions, ARoofIsMeasured) {
   EXPECT_NEAR(roof->area_m2, 96, 6);
   EXPECT_NEAR(roof->length_m, 12, 1);
   EXPECT_NEAR(roof->width_m, 8, 1);
-  EXPECT_LT(roof->texture, 3);  // deviations, not the lightness itself
+  EXPECT_LT(roof->texture, 3);  // standard deviation, not the lightness itself
   EXPECT_NEAR(roof->mean_lab[0], 46, 4);
   const Eigen::Vector2d middle = map.grid.pixel_from_ground(house.middle_m);
   const auto outward = std::count_if(
@@ -566,8 +565,8 @@ TEST(Roofs, OnlyLinesAlongTheOutlineCount) {
   EXPECT_LT(on_lines(across), 0.3);
 }
 
-// It is dark on the side of the shadow; on the other side the ground is lighter than the roof. A
-// high sun's shadow is looked for near the roof.
+// It is dark on the side of the shadow; on the other side the ground is lighter than the roof. The
+// shadow of a high sun is searched near the roof.
 TEST(Roofs, ARoofIsToldByItsShadow) {
   const Yard yard = one_house();
   const Picture picture = drawn(yard);
@@ -596,8 +595,8 @@ TEST(Roofs, AHousesLooksAreMeasured) {
   EXPECT_GT(house_features(in_grass, {}, {300, 45}).looks[1], 0.9);
 }
 
-// Two regions side by side, 10 m in square, with these colours; the left one is surely a roof, the
-// other one perhaps.
+// Two adjacent regions, 10 m square, with these colours; the left one is certainly a roof, the
+// other one possibly.
 double perhaps_beside_a_roof(const Eigen::Vector3d& left_lab, const Eigen::Vector3d& right_lab,
                              double neighbour_trust) {
   RegionMap map;
@@ -620,7 +619,7 @@ double perhaps_beside_a_roof(const Eigen::Vector3d& left_lab, const Eigen::Vecto
   return roof_probabilities(map, features, settings)[1];
 }
 
-// Two sides of a roof are of one colour, whatever the light; in grey, light alone tells.
+// Two sides of a roof have one colour in any light; in grey pictures only lightness is available.
 TEST(Roofs, ARoofsNeighbourOfALikeColourIsOneToo) {
   const Eigen::Vector3d red(50, 40, 30);
   const Eigen::Vector3d grey(50, 0, 0);

@@ -98,7 +98,7 @@ TEST(StorableWalls, EndsThatAreNoPlacesAreRefused) {
        {WallEnd{std::numeric_limits<double>::quiet_NaN(), 8}, WallEnd{91, 8}, WallEnd{49, 180.5}}) {
     const Result<std::vector<Wall>> walls = storable_walls({{{49, 8}, end, 0.5}});
     ASSERT_FALSE(walls.ok());
-    EXPECT_THAT(walls.error().line(), HasSubstr("not a place on the Earth"));
+    EXPECT_THAT(walls.error().line(), HasSubstr("not a position on the Earth"));
   }
 }
 
@@ -109,7 +109,7 @@ TEST(StorableWalls, TheNumberOfPiecesIsBounded) {
   EXPECT_THAT(pieces.error().line(), HasSubstr("more than a million pieces"));
 }
 
-// Whatever is written can be read: walls of up to 300 m all over the Earth, most of them near a
+// All that is written can be read: walls of up to 300 m all over the Earth, most of them near a
 // pole or longitude 180, and steps that round to just above 0.1 degrees.
 TEST(StorableWalls, OurReadersTakeThemAll) {
   std::mt19937 random(5);

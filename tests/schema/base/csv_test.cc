@@ -56,13 +56,13 @@ TEST_F(CsvTest, NamesAWrongColumn) {
   const Error error = error_of("name,y_m\na,1\n");
   EXPECT_EQ(error.code, ErrorCode::invalid_input);
   EXPECT_EQ(error.line(), path_.string() +
-                              ", line 1: column 2 is 'y_m' where 'x_m' belongs; let the header "
-                              "start with name,x_m");
+                              ", line 1: column 2 is 'y_m', expected 'x_m'; start the header "
+                              "with name,x_m");
 }
 
 TEST_F(CsvTest, NamesAMissingColumn) {
-  EXPECT_THAT(error_of("name\n").line(), HasSubstr("column 2 is nothing where 'x_m' belongs"));
-  EXPECT_THAT(error_of("").line(), HasSubstr("column 1 is '' where 'name' belongs"));
+  EXPECT_THAT(error_of("name\n").line(), HasSubstr("column 2 is missing, expected 'x_m'"));
+  EXPECT_THAT(error_of("").line(), HasSubstr("column 1 is '', expected 'name'"));
 }
 
 TEST_F(CsvTest, NamesAShortRow) {

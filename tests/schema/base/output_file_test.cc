@@ -47,7 +47,7 @@ TEST_F(OutputFile, MayBeNewOrOfItsKindOrEmpty) {
 TEST_F(OutputFile, OfAnotherKindIsNotReplaced) {
   const fs::path letter = file("letter.txt", "Dear reader");
   EXPECT_EQ(asked(letter), letter.string() +
-                               ": the file that is there is not a rhyme, so it is not replaced; "
+                               ": the existing file is not a rhyme, so it is not replaced; "
                                "give another file with --out, or remove this one first");
   EXPECT_THAT(asked(file("short.txt", "R")), HasSubstr("is not a rhyme"));
 }
@@ -98,7 +98,7 @@ TEST_F(OutputFile, IsNoFolder) {
 TEST_F(OutputFile, NeedsItsFolder) {
   EXPECT_EQ(asked(folder_ / "none" / "new.txt"),
             (folder_ / "none" / "new.txt").string() + ": there is no folder " +
-                (folder_ / "none").string() + "; make it, or give another file with --out");
+                (folder_ / "none").string() + "; create it, or give another file with --out");
 }
 
 TEST_F(OutputFile, APipeOrADeviceTakesWhatIsWrittenInOneGo) {

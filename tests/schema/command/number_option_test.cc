@@ -1,4 +1,4 @@
-// Options for one number: what their help says, and what they refuse.
+// Options for one number: their help text, and the values that they reject.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

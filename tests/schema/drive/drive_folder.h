@@ -1,4 +1,4 @@
-// A small valid drive in a temporary folder, for tests to damage one thing of.
+// A small valid drive in a temporary folder, of which tests damage one part.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ class DriveFolder {
 
   void write(const std::string& name, const std::string& content) const;
   std::string read(const std::string& name) const;
-  // Replaces the only place in the file that says `old_text`; fails the test when there is none.
+  // Replaces the only occurrence of `old_text` in the file; fails the test if there is none.
   void replace(const std::string& name, const std::string& old_text,
                const std::string& new_text) const;
   // Replaces a line of a table; the header is line 1.

@@ -43,7 +43,7 @@ TEST_F(GreyDepth, IsThatOfTheGreatestValue) {
                                        {16384, 16},
                                        {65535, 16}}) {
     for (const char* name : {"a.png", "a.tif", "a.pgm"}) {
-      // A PGM of OpenCV declares 65535, which means nothing.
+      // A PGM of OpenCV declares 65535, which is not significant.
       EXPECT_EQ(grey_bits_of({image(name, greatest)}), bits) << name << " of " << greatest;
     }
   }
@@ -55,7 +55,7 @@ TEST_F(GreyDepth, IsOneForAllImagesOfARecording) {
   const fs::path bright = image("bright.png", 4000);
   EXPECT_EQ(grey_bits_of({dark, dark, bright, dark}), 12);
   EXPECT_EQ(grey_bits_of({dark, dark}), 10);
-  // The first, the last and those between are looked at, however many there are.
+  // The first, the last and some between are sampled, however many there are.
   std::vector<fs::path> many(1000, dark);
   many.back() = bright;
   EXPECT_EQ(grey_bits_of(many), 12);
@@ -68,12 +68,12 @@ TEST_F(GreyDepth, OfImagesOf8BitsIs8) {
 }
 
 TEST_F(GreyDepth, IsAtLeastWhatTheImagesDeclare) {
-  // A dark frame of a 12-bit camera, as a PGM that says so.
+  // A dark frame of a 12-bit camera, as a PGM that declares the depth.
   std::string pgm = "P5\n# a dark tunnel\n4 4\n4095\n";
   for (int i = 0; i < 16; ++i) pgm += std::string("\x00\x1e", 2);
   EXPECT_EQ(grey_bits_of({file("dark.pgm", pgm)}), 12);
 
-  // The same by the chunk sBIT, in which libpng does not ask for a checksum to be right.
+  // The same with the chunk sBIT, of which libpng does not verify the checksum.
   image("dark.png", 300);
   std::ostringstream png;
   png << std::ifstream(folder_ / "dark.png", std::ios::binary).rdbuf();
@@ -81,7 +81,7 @@ TEST_F(GreyDepth, IsAtLeastWhatTheImagesDeclare) {
   const std::string with_sbit = png.str().substr(0, 33) + sbit + png.str().substr(33);
   EXPECT_EQ(grey_bits_of({file("declared.png", with_sbit)}), 14);
 
-  // And by TIFF's MaxSampleValue, which here takes the place of the entry Photometric's neighbour.
+  // And with TIFF's MaxSampleValue, which here replaces the entry next to Photometric.
   const std::string tiff = [] {
     const auto u16 = [](int v) {
       return std::string{static_cast<char>(v & 255), static_cast<char>(v >> 8)};

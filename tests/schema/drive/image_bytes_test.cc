@@ -1,4 +1,4 @@
-// What is taken for a whole image, and that nobody but us speaks of one that is not.
+// Detection of incomplete images, without output of the decoders.
 #include "schema/drive/image_bytes.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ cv::Mat plainly_decoded(const std::string& bytes) {
   return cv::imdecode(std::vector<unsigned char>(bytes.begin(), bytes.end()), cv::IMREAD_GRAYSCALE);
 }
 
-// The gray image, or nothing; with what it did not do: speak on standard error.
+// The gray image, or nothing; checks that nothing is written to standard error.
 class ImageBytes : public ::testing::Test {
  protected:
   static std::string verdict(const std::string& bytes) {
@@ -79,7 +79,7 @@ TEST_F(ImageBytes, AJpegThatLacksDataIsCutShortWhateverItEndsWith) {
   for (const std::string& jpeg : jpegs()) {
     // The last byte of data may hold nothing but padding.
     for (std::size_t size = 9; size + 4 < jpeg.size(); size += 1 + size / 40) {
-      EXPECT_EQ(verdict(jpeg.substr(0, size)), "is cut short") << size << " of " << jpeg.size();
+      EXPECT_EQ(verdict(jpeg.substr(0, size)), "is truncated") << size << " of " << jpeg.size();
     }
     for (const double part : {0.5, 0.7, 0.9, 0.98}) {
       const auto size = static_cast<std::size_t>(part * static_cast<double>(jpeg.size()));
@@ -92,7 +92,7 @@ TEST_F(ImageBytes, AProgressiveJpegWithoutItsLastScansIsCutShort) {
   const std::string jpeg = encoded(".jpg", {cv::IMWRITE_JPEG_PROGRESSIVE, 1});
   const std::size_t last_scan = jpeg.rfind("\xff\xda");
   ASSERT_NE(last_scan, std::string::npos);
-  EXPECT_EQ(verdict(jpeg.substr(0, last_scan)), "is cut short");
+  EXPECT_EQ(verdict(jpeg.substr(0, last_scan)), "is truncated");
 }
 
 TEST_F(ImageBytes, WhatFollowsAJpegsEndDoesNotMatter) {
@@ -114,7 +114,7 @@ TEST_F(ImageBytes, AThumbnailsEndIsNotThatOfTheImage) {
   const std::string segment("\xff\xe5\x00\x06\xff\xd9\xff\xd9", 8);
   const std::string with_segment = whole.substr(0, 2) + segment + whole.substr(2);
   EXPECT_EQ(verdict(with_segment), "whole");
-  EXPECT_EQ(verdict(with_segment.substr(0, with_segment.size() / 2)), "is cut short");
+  EXPECT_EQ(verdict(with_segment.substr(0, with_segment.size() / 2)), "is truncated");
 }
 
 TEST_F(ImageBytes, AJpegOfBrokenCodesIsDamaged) {
@@ -140,7 +140,7 @@ TEST_F(ImageBytes, ADamagedJpegNeverSpeaks) {
 TEST_F(ImageBytes, APngThatLacksDataIsCutShort) {
   const std::string png = encoded(".png");
   for (std::size_t size = 9; size + 16 < png.size(); size += 1 + size / 40) {
-    EXPECT_EQ(verdict(png.substr(0, size)), "is cut short") << size;
+    EXPECT_EQ(verdict(png.substr(0, size)), "is truncated") << size;
   }
 }
 

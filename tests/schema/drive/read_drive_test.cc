@@ -11,12 +11,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// The one line a bad drive is refused with.
+// The one-line error of a bad drive.
 std::string refusal(const DriveFolder& folder) {
   const Result<Drive> drive = read_drive(folder.path());
   if (drive) return "accepted";
   EXPECT_THAT(drive.error().line(), Not(HasSubstr("\n")));
-  EXPECT_FALSE(drive.error().mend.empty());
+  EXPECT_FALSE(drive.error().hint.empty());
   return drive.error().line();
 }
 
@@ -227,15 +227,15 @@ TEST_P(BadRows, AreRefused) {
 
 const BadRow kBadRows[] = {
     {1, "filename,timestamp_s,latitude_deg,longitude_deg,altitude_m,heading_deg",
-     "column 3 is 'latitude_deg' where 'east_m' belongs"},
+     "column 3 is 'latitude_deg', expected 'east_m'"},
     {3, "b.png,10.2,0,2", "the row has 4 cells"},
     {3, "b.png,10.2,0,nan,1.5,0", "north_m is 'nan', not a finite number"},
     {3, "b.png,inf,0,2,1.5,0", "timestamp_s is 'inf', not a finite number"},
     {3, "b.png,10.2,0,2,1.5,north", "heading_deg is 'north', not a finite number"},
-    {3, "b.png,10.2,0,2000000,1.5,0", "the position lies 1000 km or more off the origin"},
+    {3, "b.png,10.2,0,2000000,1.5,0", "the position lies 1000 km or more from the origin"},
     {4, "c.png,10.2,0,4,1.5,0", "timestamp_s 10.2 is not later than 10.2 on line 3; "},
     {4, "c.png,9.5,0,4,1.5,0", "timestamp_s 9.5 is not later than 10.2 on line 3; "},
-    {4, "b.png,10.4,0,4,1.5,0", "filename 'b.png' stands already on line 3; "},
+    {4, "b.png,10.4,0,4,1.5,0", "filename 'b.png' is already on line 3; "},
     {3, ",10.2,0,2,1.5,0", "filename '' is not the plain name of a file; "},
     {3, "..,10.2,0,2,1.5,0", "filename '..' is not the plain name of a file; "},
     {3, "../b.png,10.2,0,2,1.5,0", "filename '../b.png' is not the plain name of a file; "},
@@ -251,7 +251,7 @@ TEST(ReadDriveRefuses, APositionJump) {
   EXPECT_EQ(refusal(folder), folder.file("trajectory.csv") +
                                  ", line 5: the position jumps 50.0 m from line 4 in 0.500 s: "
                                  "100.0 m/s, faster than 70; correct the positions or the times, "
-                                 "or cut the drive in two there");
+                                 "or split the drive there");
 }
 
 TEST(ReadDrive, AcceptsAFastCar) {
@@ -306,15 +306,14 @@ TEST_P(BadReadings, AreRefused) {
 const std::string kGpsHeader = "timestamp_s,latitude_deg,longitude_deg,sigma_m\n";
 const std::string kOdometryHeader = "timestamp_s,speed_mps,yaw_rate_dps\n";
 const BadReading kBadReadings[] = {
-    {"gps.csv", "timestamp_s,latitude_deg\n", 1,
-     "column 3 is nothing where 'longitude_deg' belongs"},
+    {"gps.csv", "timestamp_s,latitude_deg\n", 1, "column 3 is missing, expected 'longitude_deg'"},
     {"gps.csv", kGpsHeader + "1,49,8,0\n", 2, "sigma_m is 0; "},
     {"gps.csv", kGpsHeader + "1,49,8,-5\n", 2, "sigma_m is -5; "},
     {"gps.csv", kGpsHeader + "1,49,8,nan\n", 2, "sigma_m is 'nan', not a finite number"},
     {"gps.csv", kGpsHeader + "1,91,8,5\n", 2, "latitude_deg 91 is out of range"},
     {"gps.csv", kGpsHeader + "1,49,8,5\n1,49,8,5\n", 3,
      "timestamp_s 1 is not later than 1 on line 2"},
-    {"odometry.csv", "time,speed_mps,yaw_rate_dps\n", 1, "column 1 is 'time' where 'timestamp_s'"},
+    {"odometry.csv", "time,speed_mps,yaw_rate_dps\n", 1, "column 1 is 'time', expected 'timestamp_s'"},
     {"odometry.csv", kOdometryHeader + "1,fast,0\n", 2, "speed_mps is 'fast', not a finite number"},
     {"odometry.csv", kOdometryHeader + "1,5,0\n0.5,5,0\n", 3,
      "timestamp_s 0.5 is not later than 1 on line 2"},

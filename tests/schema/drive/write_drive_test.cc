@@ -109,7 +109,7 @@ TEST(WriteDrive, RemovesTablesOfAnEarlierDrive) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "odometry.csv"));
 }
 
-// Writes a drive after `damage`; gives the line it was refused with.
+// Writes a drive after `damage`; returns the error line.
 template <class Damage>
 std::string refusal(Damage damage) {
   const DriveFolder folder;
@@ -153,7 +153,7 @@ TEST(WriteDriveRefuses, AFolderThatCannotBeMade) {
   const Status status = write_drive(geographic_drive(), folder.path() / "drive.json" / "x");
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().code, ErrorCode::io);
-  EXPECT_THAT(status.error().line(), HasSubstr("drive.json/x: cannot be made"));
+  EXPECT_THAT(status.error().line(), HasSubstr("drive.json/x: cannot be created"));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(FeatureExtractor, InOrdinaryLightItIsSiftAsItComes) {
   }
 }
 
-// Noise of two grey levels in the dark is no texture.
+// Noise of two grey levels in the dark is not texture.
 TEST(FeatureExtractor, InTheDarkItDoesNotSeeNoise) {
   cv::Mat dark(300, 400, CV_8U);
   cv::RNG random(3);

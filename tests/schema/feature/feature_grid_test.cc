@@ -21,7 +21,7 @@ TEST(FeatureGrid, VisitsEveryFeatureInTheCircle) {
     grid.visit_near(x, y, 60, [&](std::size_t i) { visited.push_back(i); });
     for (std::size_t i = 0; i < features.size(); ++i) {
       if (std::hypot(features[i].x_px - x, features[i].y_px - y) > 60) continue;
-      EXPECT_THAT(visited, testing::Contains(i));
+      EXPECT_THAT(visited, ::testing::Contains(i));
     }
   }
 }

@@ -8,7 +8,7 @@
 namespace milepost {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(FeatureParameters, SurviveTheMap) {
   FeatureParameters parameters;
@@ -19,7 +19,7 @@ TEST(FeatureParameters, SurviveTheMap) {
   EXPECT_EQ(*read, parameters);
 }
 
-void expect_refused(const std::string& text, const std::string& why) {
+void expect_refused_parameter(const std::string& text, const std::string& why) {
   const auto read = feature_parameters_from_json(nlohmann::json::parse(text));
   ASSERT_FALSE(read.ok()) << text;
   EXPECT_EQ(read.error().code, ErrorCode::corrupt);
@@ -27,14 +27,16 @@ void expect_refused(const std::string& text, const std::string& why) {
 }
 
 TEST(FeatureParameters, OfAnotherExtractorAreRefused) {
-  expect_refused("[1]", "not a JSON object");
-  expect_refused(R"({"kind":"orb"})", "kind");
+  expect_refused_parameter("[1]", "not a JSON object");
+  expect_refused_parameter(R"({"kind":"orb"})", "kind");
   const std::string rest =
       R"("octave_layers":3,"contrast_threshold":0.04,"edge_threshold":10,"sigma":1.6})";
-  expect_refused(R"({"kind":"sift",)" + rest, "max_features");
-  expect_refused(R"({"kind":"sift","max_features":-1,)" + rest, "'max_features' is out of range");
-  expect_refused(R"({"kind":"sift","max_features":"many",)" + rest, "max_features");
-  expect_refused(R"({"kind":"sift","max_features":5,"upright":1,)" + rest, "'upright' is unknown");
+  expect_refused_parameter(R"({"kind":"sift",)" + rest, "max_features");
+  expect_refused_parameter(R"({"kind":"sift","max_features":-1,)" + rest,
+                           "'max_features' is out of range");
+  expect_refused_parameter(R"({"kind":"sift","max_features":"many",)" + rest, "max_features");
+  expect_refused_parameter(R"({"kind":"sift","max_features":5,"upright":1,)" + rest,
+                           "'upright' is unknown");
 }
 
 }  // namespace

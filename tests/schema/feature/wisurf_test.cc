@@ -13,7 +13,7 @@ cv::Mat random_image(int width, int height, unsigned seed) {
   cv::Mat image(height, width, CV_8UC1);
   int grey = 100;
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {  // neighbours alike, as in images
+    for (int x = 0; x < width; ++x) {  // similar neighbours, as in images
       grey = std::clamp(grey + static_cast<int>(random() % 41) - 20, 0, 255);
       image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(grey);
     }
@@ -21,7 +21,7 @@ cv::Mat random_image(int width, int height, unsigned seed) {
   return image;
 }
 
-// The definition of wisurf.h, pixel by pixel: each pixel of a wavelet counts for one half or the
+// The definition of wisurf.h, pixel by pixel: each pixel of a wavelet belongs to one half or the
 // other along each axis.
 ImageDescriptor by_definition(const cv::Mat& image) {
   const double step_x = image.cols / 20.0;
@@ -76,7 +76,7 @@ TEST(Wisurf, IsItsDefinition) {
   }
 }
 
-// Grey grows to the right alone: only dx, and as much as |dx|.
+// Grey increases to the right only: only dx, equal to |dx|.
 TEST(Wisurf, ARampIsItsGradientInEveryCell) {
   cv::Mat ramp(100, 200, CV_8UC1);
   for (int x = 0; x < 200; ++x) ramp.col(x) = x;
@@ -90,7 +90,7 @@ TEST(Wisurf, ARampIsItsGradientInEveryCell) {
     length += std::pow(descriptor[4 * cell], 2) + std::pow(descriptor[4 * cell + 2], 2);
   }
   EXPECT_NEAR(length, 1, 1e-5);
-  EXPECT_NEAR(descriptor[4 * 5], descriptor[4 * 6], 1e-6);  // inner cells are alike
+  EXPECT_NEAR(descriptor[4 * 5], descriptor[4 * 6], 1e-6);  // inner cells are equal
 }
 
 TEST(Wisurf, ContrastAndBrightnessDoNotCount) {

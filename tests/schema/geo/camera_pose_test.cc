@@ -6,7 +6,7 @@
 
 #include "schema/geo/geodesy.h"
 #include "schema/geo/pinhole.h"
-#include "schema/geo/rays.h"
+#include "schema/geo/ray_triangulation.h"
 
 namespace milepost {
 namespace {
@@ -19,7 +19,7 @@ CameraPose looking(double heading_deg, double pitch_deg = 0, double roll_deg = 0
 }
 
 Eigen::Vector2d pixel_seen(const CameraPose& pose, double east_m, double north_m, double up_m) {
-  return kCamera.pixel_of<double>(seen_from<double>(pose, {east_m, north_m, up_m}));
+  return kCamera.project<double>(point_in_camera<double>(pose, {east_m, north_m, up_m}));
 }
 
 void expect_pixel(const Eigen::Vector2d& pixel, double x_px, double y_px) {
@@ -36,7 +36,7 @@ TEST(CameraPose, ALevelCameraSeesWhatLiesToTheRightOnTheRight) {
 }
 
 TEST(CameraPose, PitchingUpMovesImagesDown) {
-  // A point 10 degrees above the horizon comes to the principal point.
+  // A point 10 degrees above the horizon projects to the principal point.
   const double up_m = 1.5 + 10 * std::tan(10 * kRadPerDeg);
   expect_pixel(pixel_seen(looking(90, 10), 10, 0, up_m), 320, 240);
   expect_pixel(pixel_seen(looking(90, 10), 10, 0, 1.5), 320, 240 + 360 * std::tan(10 * kRadPerDeg));
@@ -63,20 +63,20 @@ TEST(CameraPose, TurnsInTheOrderOfFrames7) {
 }
 
 TEST(Pinhole, RayAndPixelUndoEachOther) {
-  const Eigen::Vector3d ray = kCamera.ray_of(100, 400);
+  const Eigen::Vector3d ray = kCamera.unproject(100, 400);
   EXPECT_EQ(ray.z(), 1);
-  expect_pixel(kCamera.pixel_of<double>(7 * ray), 100, 400);
+  expect_pixel(kCamera.project<double>(7 * ray), 100, 400);
   EXPECT_NEAR(kCamera.focal_px(), std::sqrt(400.0 * 360), 1e-12);
 }
 
 TEST(Pinhole, ItsDerivativeIsThatOfItsPixels) {
   const Eigen::Vector3d point(2, -1, 7);
   constexpr double kStep = 1e-6;
-  const auto derivative = kCamera.pixel_by_point(point);
+  const auto derivative = kCamera.projection_jacobian(point);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
     const Eigen::Vector2d change =
-        kCamera.pixel_of<double>(point + step) - kCamera.pixel_of<double>(point - step);
+        kCamera.project<double>(point + step) - kCamera.project<double>(point - step);
     EXPECT_LT((derivative.col(axis) - change / (2 * kStep)).norm(), 1e-6) << axis;
   }
 }
@@ -89,12 +89,12 @@ TEST(CameraPose, IsFoundAgainFromItsTransform) {
   EXPECT_NEAR(again.pitch_rad, pose.pitch_rad, 1e-12);
   EXPECT_NEAR(again.roll_rad, pose.roll_rad, 1e-12);
   const Eigen::Vector3d point(10, 20, 3);
-  EXPECT_LT((enu_from_camera(pose) * seen_from(pose, point) - point).norm(), 1e-12);
+  EXPECT_LT((enu_from_camera(pose) * point_in_camera(pose, point) - point).norm(), 1e-12);
 }
 
-TEST(MeetingRays, MeetWhereTheyCross) {
+TEST(RayTriangulation, MeetWhereTheyCross) {
   const Eigen::Vector3d crossing(1, 2, 10);
-  MeetingRays rays;
+  RayTriangulation rays;
   for (const double x : {-1.0, 0.0, 3.0}) {
     const Eigen::Vector3d from(x, 0, 0);
     rays.add(from, (crossing - from).normalized(), 1 + x * x);
@@ -104,8 +104,8 @@ TEST(MeetingRays, MeetWhereTheyCross) {
   EXPECT_LT((met->point_m - crossing).norm(), 1e-9);
 }
 
-TEST(MeetingRays, DoNotMeetWhereTheyAreParallel) {
-  MeetingRays rays;
+TEST(RayTriangulation, DoNotMeetWhereTheyAreParallel) {
+  RayTriangulation rays;
   rays.add({0, 0, 0}, {0, 0, 1});
   rays.add({1, 0, 0}, {0, 0, 1});
   EXPECT_FALSE(rays.point());

@@ -8,7 +8,7 @@
 namespace milepost {
 namespace {
 
-// The reach of a box is checked against geodesics.
+// The box test is compared with geodesics.
 TEST(BoundsAround, NeverRulesOutWhatIsWithin) {
   const std::vector<GeoPoint> corners = {{0, 0, 0},      {60, 10, 0},      {-60, -10, 0},
                                          {85, 179.9, 0}, {0, -179.999, 0}, {89.99, 0, 0}};

@@ -43,7 +43,7 @@ void expect_heading(const RouteLine& line, double along_m, double expected_deg) 
   EXPECT_NEAR(std::remainder(heading_deg - expected_deg, 360), 0, 2e-3) << "at " << along_m;
 }
 
-// A three quarter circle of 100 m radius, a vertex every 2 m or so, driven clockwise from its west.
+// A three-quarter circle of 100 m radius, a vertex every 2 m or so, driven clockwise from its west.
 std::vector<GeoPoint> curve() {
   std::vector<EnuPoint> points;
   for (int i = 0; i <= 240; ++i) {
@@ -53,7 +53,7 @@ std::vector<GeoPoint> curve() {
   return vertices_at(points);
 }
 
-TEST(RouteLine, MeasuresAlongByGeodesics) {
+TEST(RouteLine, MeasuresArcLengthByGeodesics) {
   const std::vector<GeoPoint> vertices = curve();
   const RouteLine line = line_through(vertices);
   ASSERT_EQ(line.along_m().size(), vertices.size());
@@ -67,7 +67,7 @@ TEST(RouteLine, MeasuresAlongByGeodesics) {
   EXPECT_NEAR(along_m, 150 * std::numbers::pi, 0.01);
 }
 
-TEST(RouteLine, IgnoresAltitudeInAlong) {
+TEST(RouteLine, IgnoresAltitudeInArcLength) {
   std::vector<GeoPoint> vertices = vertices_at({{0, 0, 0}, {0, 50, 0}, {0, 100, 0}});
   vertices[1].altitude_m = 30;
   EXPECT_NEAR(line_through(vertices).length_m(), 100, 1e-4);
@@ -114,7 +114,7 @@ TEST(RouteLine, HeadingIsThatOfTheEdge) {
 }
 
 //        | +
-//        |      lateral is positive to the right of the direction of driving, whichever it is
+//        |      the lateral offset is positive to the right of any direction of driving
 //      - |
 TEST(RouteLine, LateralIsPositiveToTheRight) {
   const RouteLine north = line_at({{0, 0, 0}, {0, 100, 0}});
@@ -154,7 +154,7 @@ TEST(RouteLine, ProjectsBeyondItsEndsOntoThem) {
 //   (0,0)  +      + (20,0)
 TEST(RouteLine, ProjectsWithinARange) {
   const RouteLine line = line_at({{0, 0, 0}, {0, 100, 0}, {20, 100, 0}, {20, 0, 0}});
-  const GeoPoint position = at(8, 30);  // nearer to the way out
+  const GeoPoint position = at(8, 30);  // nearer to the outward part
   EXPECT_NEAR(line.project(position).along_m, 30, 1e-3);
   const LineProjection back = line.project(position, {150, 220});
   EXPECT_NEAR(back.along_m, 190, 1e-3);
@@ -195,12 +195,12 @@ std::string refusal(const std::vector<GeoPoint>& vertices) {
 }
 
 TEST(RouteLine, RefusesWhatIsNoLine) {
-  EXPECT_THAT(refusal({}), HasSubstr("two vertices or more"));
-  EXPECT_THAT(refusal({kOrigin}), HasSubstr("two vertices or more"));
+  EXPECT_THAT(refusal({}), HasSubstr("two or more vertices"));
+  EXPECT_THAT(refusal({kOrigin}), HasSubstr("two or more vertices"));
   EXPECT_THAT(refusal({kOrigin, kOrigin}), HasSubstr("all vertices lie at one position"));
-  EXPECT_THAT(refusal({kOrigin, {91, 0, 0}}), HasSubstr("not a position on the Earth"));
+  EXPECT_THAT(refusal({kOrigin, {91, 0, 0}}), HasSubstr("not a valid latitude and longitude"));
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal({kOrigin, {kNan, 0, 0}}), HasSubstr("not a position on the Earth"));
+  EXPECT_THAT(refusal({kOrigin, {kNan, 0, 0}}), HasSubstr("not a valid latitude and longitude"));
 }
 
 }  // namespace

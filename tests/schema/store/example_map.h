@@ -14,10 +14,10 @@ namespace milepost::testing {
 inline constexpr std::uint32_t kCells[] = {
     27820 * kCellColumns + 37700, 27820 * kCellColumns + 37701, 27821 * kCellColumns + 37700};
 
-// The shortest line that a segment can have.
+// A line with the minimum of two vertices.
 inline const std::vector<StoredVertex> kShortLine = {{49, 8, 100, 0}, {49.1, 8, 100, 1}};
 
-// Reproducible bytes that no compressor shortens, as an encoded tile's.
+// Reproducible incompressible bytes, like those of an encoded tile.
 Bytes tile_bytes(std::size_t size, std::uint32_t seed);
 
 // Two segments, "east" and "west", and two layers, "tracklets" and "walls". On "east" tile i of

@@ -1,4 +1,4 @@
-// Files that are no map, or no longer the map that was written.
+// Files that are not a map, or no longer the map that was written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class MapDamageTest : public ::testing::Test {
     std::ofstream(file_, std::ios::binary | std::ios::trunc) << content;
   }
 
-  // Changes the map's tables behind the store's back.
+  // Changes the map's tables directly, not through the store.
   void change(const std::string& sql) const {
     auto database = sqlite::Database::open(file_, sqlite::Access::read_write);
     ASSERT_TRUE(database.ok());
@@ -65,13 +65,13 @@ TEST_F(MapDamageTest, AnotherKindOfFileIsNoMap) {
   write_file("filename,timestamp_s,east_m,north_m,up_m,heading_deg\n" + std::string(5000, '1'));
   EXPECT_THAT(open_error(), HasSubstr("town.map: file is not a database"));
   write_file("");
-  EXPECT_THAT(open_error(), HasSubstr("town.map: this is no milepost map"));
+  EXPECT_THAT(open_error(), HasSubstr("town.map: this is not a milepost map"));
 }
 
 TEST_F(MapDamageTest, AnotherDatabaseIsNoMap) {
   fs::remove(file_);
   change("CREATE TABLE t (x)");
-  EXPECT_THAT(open_error(), HasSubstr("town.map: this is no milepost map"));
+  EXPECT_THAT(open_error(), HasSubstr("town.map: this is not a milepost map"));
 }
 
 TEST_F(MapDamageTest, AnotherFormatVersionIsNamed) {
@@ -95,7 +95,7 @@ TEST_F(MapDamageTest, AMissingKeyIsNamed) {
 
 TEST_F(MapDamageTest, ABuildIsADigest) {
   change("UPDATE meta SET value = 'newest' WHERE key = 'build'");
-  EXPECT_THAT(open_error(), HasSubstr("town.map: the map's build is no digest"));
+  EXPECT_THAT(open_error(), HasSubstr("town.map: the map's build is not a digest"));
 }
 
 // No JSON text can hold the last one.
@@ -130,13 +130,13 @@ TEST_F(MapDamageTest, SegmentsAreWhatAWriterTakes) {
     return segment.error().line();
   };
   EXPECT_THAT(segment_error("UPDATE vertices SET latitude_deg = 91 WHERE position = 1"),
-              HasSubstr("town.map, segment east, vertex 1: the position is not in degrees"));
+              HasSubstr("town.map, segment east, vertex 1: the position is not a valid latitude"));
   EXPECT_THAT(segment_error("UPDATE vertices SET altitude_m = 9e999 WHERE position = 0"),
               HasSubstr("town.map, segment east, vertex 0: the altitude is more than 100 km"));
   EXPECT_THAT(segment_error("UPDATE vertices SET along_m = -1 WHERE position = 1"),
-              HasSubstr("town.map, segment east, vertex 1: the along does not ascend"));
+              HasSubstr("town.map, segment east, vertex 1: along_m does not ascend"));
   EXPECT_THAT(segment_error("DELETE FROM vertices"),
-              HasSubstr("town.map, segment east: a line has two vertices or more"));
+              HasSubstr("town.map, segment east: a line needs two or more vertices"));
   EXPECT_THAT(segment_error("UPDATE segments SET length_m = 0"),
               HasSubstr("town.map, segment east: the length is not above 0"));
   EXPECT_THAT(segment_error("UPDATE successors SET successor = CAST(x'73ff' AS TEXT)"),
@@ -152,7 +152,7 @@ TEST_F(MapDamageTest, ATruncatedFileIsRefused) {
   }
 }
 
-// SQLite takes a part of the last page for a page that ends in zeros.
+// SQLite reads a partial last page as a page that ends in zeros.
 TEST_F(MapDamageTest, AFileWithoutItsLastBytesIsCaughtByVerify) {
   Result<MapWriter> writer = MapWriter::create(file_);
   ASSERT_TRUE(writer->add_layer("l", "{}").ok());
@@ -162,10 +162,10 @@ TEST_F(MapDamageTest, AFileWithoutItsLastBytesIsCaughtByVerify) {
   EXPECT_EQ(verify_error(), "no error");
   const std::string whole = testing::content_of(file_);
   write_file(whole.substr(0, whole.size() - 4000));
-  EXPECT_THAT(verify_error(), HasSubstr("tile 0: the tile's bytes break its digest"));
+  EXPECT_THAT(verify_error(), HasSubstr("tile 0: the tile's bytes do not match its digest"));
 }
 
-TEST_F(MapDamageTest, ADamagedFrameIsCaughtByReadingIt) {
+TEST_F(MapDamageTest, ADamagedTileIsCaughtByReadingIt) {
   damage_tile(4);
   const auto reader = MapReader::open(file_);
   ASSERT_TRUE(reader.ok());
@@ -173,11 +173,11 @@ TEST_F(MapDamageTest, ADamagedFrameIsCaughtByReadingIt) {
   ASSERT_FALSE(tile.ok());
   EXPECT_EQ(tile.error().code, ErrorCode::corrupt);
   EXPECT_THAT(tile.error().line(), HasSubstr("town.map, segment east, layer tracklets, tile 4: the "
-                                             "tile's bytes break its digest"));
+                                             "tile's bytes do not match its digest"));
   EXPECT_TRUE(reader->tile("east", "tracklets", 5).ok());
 }
 
-TEST_F(MapDamageTest, ADamagedFrameIsCaughtByVerify) {
+TEST_F(MapDamageTest, ADamagedTileIsCaughtByVerify) {
   damage_tile(9);
   EXPECT_THAT(verify_error(), HasSubstr("segment east, layer tracklets, tile 9: the tile's bytes"));
 }
@@ -235,19 +235,19 @@ const std::vector<Change> kChanges = {
     {"CellItems", "UPDATE cells SET items = 0", kOtherBuild},
     {"MissingCell", "DELETE FROM cells WHERE number % 2 = 1", kOtherBuild},
     {"CellBytes", "UPDATE cells SET bytes = 1 WHERE number = 27820 * 72000 + 37700",
-     "layer walls, cell 2003077700: the tile's bytes break its digest"},
+     "layer walls, cell 2003077700: the tile's bytes do not match its digest"},
     {"CellContent", "UPDATE frames SET frame = x'00' WHERE id = 12",
-     "layer walls, cell 2003077700: the tile's bytes break its digest"},
+     "layer walls, cell 2003077700: the tile's bytes do not match its digest"},
     {"MissingCellBytes", "DELETE FROM frames WHERE id = 14",
-     "layer walls, cell 2003149700: the tile's bytes break its digest"},
+     "layer walls, cell 2003149700: the tile's bytes do not match its digest"},
     {"Bounds", "UPDATE meta SET value = 1.0 WHERE key = 'west_deg'",
      "the bounds are not those of the vertices"},
     {"MissingBytes", "DELETE FROM frames WHERE id = 5",
-     "tile 5: the tile's bytes break its digest"},
+     "tile 5: the tile's bytes do not match its digest"},
     {"TileContent", "UPDATE frames SET frame = x'00' WHERE id = 5",
-     "tile 5: the tile's bytes break its digest"},
+     "tile 5: the tile's bytes do not match its digest"},
     {"Bytes", "UPDATE tiles SET bytes = 1 WHERE number = 5",
-     "tile 5: the tile's bytes break its digest"},
+     "tile 5: the tile's bytes do not match its digest"},
     {"Span", "UPDATE spans SET longest_m = 49 WHERE segment = 'east' AND layer = 'tracklets'",
      "segment east, layer tracklets: a tile is longer than the longest one"},
     {"MissingSpan", "DELETE FROM spans WHERE layer = 'walls'",
@@ -257,8 +257,8 @@ const std::vector<Change> kChanges = {
 INSTANTIATE_TEST_SUITE_P(Each, MapChange, ::testing::ValuesIn(kChanges),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Whatever byte is flipped: no crash, and where the map reads otherwise than it was written,
-// verify says so.
+// Whatever byte is flipped: no crash, and if the map's content differs from what was written,
+// verify reports it.
 TEST_F(MapDamageTest, FlippedBytesDoNoHarmUnseen) {
   const std::string whole = testing::content_of(file_);
   int caught = 0;
@@ -278,7 +278,7 @@ TEST_F(MapDamageTest, FlippedBytesDoNoHarmUnseen) {
           << "byte " << i;
     }
   }
-  EXPECT_GT(caught, 300);  // most of the file is frames
+  EXPECT_GT(caught, 300);  // most of the file is encoded tiles
 }
 
 }  // namespace

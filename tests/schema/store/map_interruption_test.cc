@@ -1,4 +1,4 @@
-// A writer that is killed or meets a full disk, in a process of its own.
+// A writer that is killed or runs out of disk space, in its own process.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -22,7 +22,7 @@ constexpr std::size_t kFrameBytes = 100'000;
 
 class MapInterruptionTest : public ::testing::Test {
  protected:
-  // What stands at the place of the map must be the old one, whole.
+  // The file at the map's path must be the complete old map.
   void expect_old_map() const {
     EXPECT_EQ(testing::content_of(file_), old_content_);
     const auto reader = MapReader::open(file_);
@@ -73,17 +73,17 @@ TEST_F(MapInterruptionTest, KilledItLeavesTheOldMapWhole) {
     });
     close(ready[1]);
     char byte = 0;
-    EXPECT_EQ(read(ready[0], &byte, 1), 1);  // the writer is at work
+    EXPECT_EQ(read(ready[0], &byte, 1), 1);  // the writer has started
     close(ready[0]);
     kill(child, SIGKILL);
     EXPECT_TRUE(WIFSIGNALED(status_of(child)));
     expect_old_map();
   }
-  testing::write_example(file_);  // and a later writer is not disturbed by what lies about
+  testing::write_example(file_);  // and leftovers do not disturb a later writer
   expect_old_map();
 }
 
-// Killed at some instant of writing and publishing, again and again: the old map or the new one.
+// Killed repeatedly at some instant of writing and publishing: either the old map or the new one.
 TEST_F(MapInterruptionTest, KilledAtAnyInstantThereIsAWholeMap) {
   for (int delay_us = 0; delay_us < 60'000; delay_us += 3000) {
     const pid_t child = start([&] {
@@ -101,7 +101,7 @@ TEST_F(MapInterruptionTest, KilledAtAnyInstantThereIsAWholeMap) {
   }
 }
 
-// A limit on the size of files stands for a full disk.
+// A limit on the size of files simulates a full disk.
 TEST_F(MapInterruptionTest, AFullDiskIsAnErrorThatNamesTheFile) {
   for (const rlim_t limit : {1000U, 500'000U, 20'000'000U}) {
     const pid_t child = start([&] {

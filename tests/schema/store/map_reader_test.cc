@@ -31,7 +31,7 @@ class MapReaderTest : public ::testing::Test {
   }
 
   testing::TempFolder folder_;
-  std::filesystem::path file_ = folder_ / "town %?#.map";  // nothing in a name is read as an option
+  std::filesystem::path file_ = folder_ / "town %?#.map";  // no part of it is parsed as an option
   std::string build_ = testing::write_example(file_);
   Result<MapReader> reader_ = MapReader::open(file_);
 };
@@ -78,7 +78,7 @@ TEST_F(MapReaderTest, GivesBackTheTileIndex) {
   EXPECT_THAT(*reader_->tile_index("west", "walls"), IsEmpty());
 }
 
-TEST_F(MapReaderTest, GivesBackEveryFrame) {
+TEST_F(MapReaderTest, GivesBackEveryTile) {
   for (std::uint32_t i = 0; i < 10; ++i) {
     EXPECT_EQ(*reader_->tile("east", "tracklets", i), tile_bytes(3000 + 1000 * i, i));
   }

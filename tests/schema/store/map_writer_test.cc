@@ -60,7 +60,7 @@ TEST_F(MapWriterTest, TheSameCallsGiveTheSameBytes) {
   EXPECT_EQ(content_of(other), content_of(file_));
 }
 
-// The fields of FORMAT.md 2.7, put together here by hand.
+// The fields of FORMAT.md 2.7, assembled by hand.
 TEST_F(MapWriterTest, TheBuildIsTheDigestThatFormatMdTells) {
   MapWriter map = writer();
   ASSERT_TRUE(map.set_feature_json("{}").ok());
@@ -155,7 +155,7 @@ TEST_F(MapWriterTest, ReplacesNothingButMaps) {
   const auto over_notes = MapWriter::create(file_);
   ASSERT_FALSE(over_notes.ok());
   EXPECT_EQ(over_notes.error().code, ErrorCode::invalid_input);
-  EXPECT_THAT(over_notes.error().line(), HasSubstr("town.map: the file that is there is not a"));
+  EXPECT_THAT(over_notes.error().line(), HasSubstr("town.map: the existing file is not a"));
   EXPECT_EQ(content_of(file_), "notes");
   EXPECT_EQ(files_in(folder_.path()), 1);
 }
@@ -180,37 +180,37 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
     EXPECT_EQ(status.error().code, ErrorCode::invalid_input);
     EXPECT_EQ(status.error().line(), file_.string() + what);
   };
-  expect_refused(map.add_layer("", "{}"), ": '' is no layer's name");
+  expect_refused(map.add_layer("", "{}"), ": '' is not a layer name");
   const std::string deep = "{\"a\": " + std::string(40, '[') + std::string(40, ']') + "}";
   for (const std::string& json :
        {std::string(), std::string("[]"), std::string("{"), std::string("{} {}"),
         std::string("{\"a\": NaN}"), std::string("{\"a\": \"\xff\"}"), deep}) {
     expect_refused(map.add_layer("l", json),
-                   ": the parameters of layer l are no JSON object (FORMAT.md 2.4)");
+                   ": the parameters of layer l are not a JSON object (FORMAT.md 2.4)");
     expect_refused(map.set_feature_json(json),
-                   ": the feature parameters are no JSON object (FORMAT.md 2.3)");
+                   ": the feature parameters are not a JSON object (FORMAT.md 2.3)");
   }
 
   const auto with = [&](const StoredVertex& end) {
     return StoredSegment{"c", 1, {begin, end}, {}};
   };
   expect_refused(map.add_segment({"a/b", 1, testing::kShortLine, {}}),
-                 ": 'a/b' is no segment's id");
+                 ": 'a/b' is not a segment id");
   expect_refused(map.add_segment({"c", 1, testing::kShortLine, {"d", "e/f"}}),
-                 ", segment c: the successor 'e/f' is no segment's id");
+                 ", segment c: the successor 'e/f' is not a segment id");
   for (const double length_m : {nan, -1.0, 0.0, 1e8 + 1}) {
     expect_refused(map.add_segment({"c", length_m, testing::kShortLine, {}}),
                    ", segment c: the length is not above 0 and at most 100000 km (FORMAT.md 2.5)");
   }
   expect_refused(map.add_segment({"c", 1, {begin}, {}}),
-                 ", segment c: a line has two vertices or more (FORMAT.md 2.5)");
+                 ", segment c: a line needs two or more vertices (FORMAT.md 2.5)");
   for (const StoredVertex& end : {StoredVertex{nan, 8, 100, 1},
                                   {90.01, 8, 100, 1},
                                   {49, 180.01, 100, 1},
                                   {49, -180.01, 100, 1}}) {
     expect_refused(map.add_segment(with(end)),
-                   ", segment c, vertex 1: the position is not in degrees of the Earth (FORMAT.md "
-                   "2.5)");
+                   ", segment c, vertex 1: the position is not a valid latitude and longitude "
+                   "(FORMAT.md 2.5)");
   }
   for (const double altitude_m : {nan, 100001.0, -100001.0}) {
     expect_refused(map.add_segment(with({49, 8, altitude_m, 1})),
@@ -218,15 +218,14 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
   }
   for (const double along_m : {nan, -0.5, 1e8 + 1}) {
     expect_refused(map.add_segment(with({49, 8, 100, along_m})),
-                   ", segment c, vertex 1: the along does not ascend from 0 on (FORMAT.md 2.5)");
+                   ", segment c, vertex 1: along_m does not ascend from 0 (FORMAT.md 2.5)");
   }
 
   const Bytes bytes = tile_bytes(10, 1);
   for (const AlongRange& along : {AlongRange{2, 1}, {nan, 1}, {0, nan}, {0, 1e8 + 1}}) {
     expect_refused(map.add_tile("east", "walls", 8, along, 1, bytes),
-                   ", segment east, layer walls, tile 8: the along range does not go from less to "
-                   "more (FORMAT.md "
-                   "2.6)");
+                   ", segment east, layer walls, tile 8: the along range is not ascending and "
+                   "within 100000 km (FORMAT.md 2.6)");
   }
   expect_refused(map.add_tile("east", "walls", 8, {0, 1}, 1, {}),
                  ", segment east, layer walls, tile 8: a tile without bytes (FORMAT.md 2.6)");

@@ -90,13 +90,13 @@ TEST_F(SqliteTest, ImmutableDoesNotMakeAFile) {
 TEST_F(SqliteTest, NamesTheFileThatIsNoDatabase) {
   std::ofstream(file_) << std::string(2000, 'x');
   const auto database = Database::open(file_, Access::immutable);
-  ASSERT_TRUE(database.ok());  // SQLite looks at the file when it is asked for something
+  ASSERT_TRUE(database.ok());  // SQLite reads the file at the first query
   const auto select = database->prepare("SELECT 1 FROM sqlite_schema");
   ASSERT_FALSE(select.ok());
   EXPECT_EQ(select.error().code, ErrorCode::corrupt);
   EXPECT_EQ(select.error().line(), file_.string() +
-                                       ": file is not a database; replace the file by "
-                                       "a good copy, or make it anew");
+                                       ": file is not a database; replace the file with "
+                                       "a good copy, or rebuild it");
 }
 
 TEST_F(SqliteTest, ABrokenConstraintIsTheCallersFault) {

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Random tracklets around `from_m`, as real ones are spread.
+// Random tracklets around `from_m`, distributed like real ones.
 TrackletTile random_tile(double from_m, int count) {
   std::mt19937 random(7);
   const auto uniform = [&](double a, double b) {
@@ -51,7 +51,7 @@ TEST(TileCodec, KeepsTheModel) {
   EXPECT_EQ(decode_tile(encode_tile(tile))->model, ScaleModel::scale);
 }
 
-// FORMAT.md 3.11 promises these bounds.
+// FORMAT.md 3.11 guarantees these bounds.
 TEST(TileCodec, KeepsPositionsToAFractionOfAMillimetreFarAlong) {
   const TrackletTile tile = random_tile(100000.123456789, 500);
   const auto decoded = decode_tile(encode_tile(tile));
@@ -94,7 +94,7 @@ TEST(TileCodec, RoundsPixelRangesOutwards) {
   const PixelRange& pixels = decoded->tracklets[0].pixels;
   EXPECT_EQ(pixels.x_min_px, 10);
   EXPECT_EQ(pixels.x_max_px, 21);
-  EXPECT_EQ(pixels.y_min_px, 0);      // no further out than the format goes
+  EXPECT_EQ(pixels.y_min_px, 0);      // clamped to the range of the format
   EXPECT_EQ(pixels.y_max_px, 65535);  // the same
 }
 
@@ -124,11 +124,11 @@ TEST(TileCodec, EveryTruncationIsAnError) {
     const auto decoded = decode_tile(ByteView(frame).first(length));
     ASSERT_FALSE(decoded.ok()) << length;
     EXPECT_EQ(decoded.error().code, ErrorCode::corrupt);
-    EXPECT_THAT(decoded.error().line(), HasSubstr("the frame is cut short (FORMAT.md 3.2)"));
+    EXPECT_THAT(decoded.error().line(), HasSubstr("the frame is truncated (FORMAT.md 3.2)"));
   }
 }
 
-// A few bits of a frame mean nothing to its content; the checksum catches every other change.
+// A few bits of a frame do not affect its content; the checksum detects every other change.
 TEST(TileCodec, AChangedByteIsAnErrorOrWithoutEffect) {
   const std::string text = testing::text_of(testing::example_tile());
   const Bytes good = encode_tile(testing::example_tile());

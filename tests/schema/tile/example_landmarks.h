@@ -1,4 +1,4 @@
-// A tile of landmarks on each side of zero and near the ends of what is stored, and its content as
+// A tile of landmarks on each side of zero and near the limits of stored values, and its content as
 // text.
 #pragma once
 
@@ -11,8 +11,8 @@ namespace milepost::testing {
 // Three landmarks 98 km along a segment. The golden tile holds it: do not change it.
 LandmarkTile example_landmarks();
 
-// One line for the tile and one for each landmark; the same text as read_tile.py prints of the
-// tile's bytes, where the tile is as it comes back from them.
+// One line for the tile and one for each landmark; the same text as read_tile.py prints for the
+// tile's bytes, if the tile is quantized.
 std::string text_of(const LandmarkTile& tile);
 
 }  // namespace milepost::testing

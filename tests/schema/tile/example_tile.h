@@ -1,4 +1,4 @@
-// A tile whose every value is kept exactly by the stored form, and its content as text.
+// A tile with values that encoding preserves exactly, and its content as text.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Tiles of frames: kept as they are, and tables that break one paragraph of FORMAT.md each.
+// Tiles of frames: the round trip, and tables that each violate one paragraph of FORMAT.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using testing::kInfinity;
 using testing::kNan;
 
-// The arrays of a sound table of two frames, of two features and of one.
+// The arrays of a valid table of two frames, with two features and with one.
 struct Table {
   std::string segment = "s";
   double origin_m = 50;
@@ -35,7 +35,7 @@ struct Table {
 
 Bytes bytes_of(const Table& t, const char* identifier = "MPF1") {
   flatbuffers::FlatBufferBuilder builder;
-  const auto root = fbs::CreateFrameTileDirect(
+  const auto root = fbs::CreateImageDescriptorTileDirect(
       builder, t.segment.c_str(), 12, t.origin_m, t.descriptor_bytes, t.image_values, &t.along_m,
       &t.features, &t.image_descriptors, &t.descriptors, &t.scale_px, &t.x_px, &t.y_px);
   return testing::content_of(builder, root, identifier);
@@ -58,7 +58,7 @@ TEST(FrameTable, TheSoundOneIsTaken) {
 
 TEST(FrameTable, KeepsEveryFeature) {
   std::mt19937 random(7);
-  FrameTile tile{"a-long-road", 9, {}};
+  ImageDescriptorTile tile{"a-long-road", 9, {}};
   for (int i = 0; i < 10; ++i) {
     DatabaseFrame frame;
     frame.along_m = 100000.123 + 2 * i;
@@ -91,7 +91,7 @@ TEST(FrameTable, KeepsEveryFeature) {
 }
 
 TEST(FrameTable, KeepsImageDescriptorsExactly) {
-  FrameTile tile{"s", 0, {{10, {}, ImageDescriptor{}}, {12, {}, ImageDescriptor{}}}};
+  ImageDescriptorTile tile{"s", 0, {{10, {}, ImageDescriptor{}}, {12, {}, ImageDescriptor{}}}};
   (*tile.frames[1].image)[5] = -0.7F;
   const auto decoded = decode_frames(encode_frames(tile));
   ASSERT_TRUE(decoded.ok()) << decoded.error().line();
@@ -123,7 +123,7 @@ const char* const kSum = "the length of scale_px is not the sum of features (FOR
 const char* const kDescriptors =
     "the length of descriptors is not 128 times that of scale_px (FORMAT.md 4.9)";
 const char* const kScale = "frame 0: a scale is not finite and above 0 (FORMAT.md 4.9)";
-const char* const kAlong = "frame 1: its along is not one (FORMAT.md 4.7)";
+const char* const kAlong = "frame 1: its along_m is out of range (FORMAT.md 4.7)";
 
 const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
     {"ShortCounts", [](Table& t) { t.features.pop_back(); },
@@ -131,15 +131,15 @@ const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
     {"NanAlong", [](Table& t) { t.along_m[1] = kNan; }, kAlong},
     {"FarAlong", [](Table& t) { t.along_m[1] = 2e8F; }, kAlong},
     {"AlongOrder", [](Table& t) { t.along_m[1] = 0; },
-     "frame 1: the alongs of the frames do not ascend (FORMAT.md 4.7)"},
+     "frame 1: along_m of the frames does not ascend (FORMAT.md 4.7)"},
     {"ImageValues", [](Table& t) { t.image_values = 32; },
-     "an image descriptor is not of 64 values (FORMAT.md 4.8)"},
+     "an image descriptor does not have 64 values (FORMAT.md 4.8)"},
     {"ShortImages", [](Table& t) { t.image_descriptors.pop_back(); }, kImages},
     {"UnannouncedImages", [](Table& t) { t.image_values = 0; }, kImages},
     {"NanImage", [](Table& t) { t.image_descriptors[64] = kNan; }, kImageValue},
     {"LargeImage", [](Table& t) { t.image_descriptors[127] = -1.1F; }, kImageValue},
     {"DescriptorBytes", [](Table& t) { t.descriptor_bytes = 64; },
-     "a descriptor is not of 128 bytes (FORMAT.md 4.9)"},
+     "a descriptor does not have 128 bytes (FORMAT.md 4.9)"},
     {"TooManyCounted", [](Table& t) { t.features[1] = 2; }, kSum},
     {"OverflowingCounts",
      [](Table& t) {

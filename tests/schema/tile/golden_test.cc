@@ -27,7 +27,7 @@ TEST(GoldenTile, StillHoldsItsLandmarks) {
   EXPECT_EQ(testing::text_of(*tile), golden("landmarks-1.txt"));
 }
 
-// The content only: another version of zstd may make another frame of it.
+// The content only: another version of zstd may compress it differently.
 TEST(GoldenTile, IsStillWrittenTheSame) {
   const auto written_as = [](const Bytes& frame, const std::string& name) {
     const auto content = expand_frame(as_bytes(golden(name)));

@@ -1,4 +1,4 @@
-// Tables as a broken or hostile writer makes them: what every kind of tile is tested with.
+// Tables of a broken or hostile writer, with which every kind of tile is tested.
 #pragma once
 
 #include <flatbuffers/flatbuffers.h>
@@ -21,7 +21,7 @@ namespace milepost::testing {
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A change that makes a sound table break one paragraph of FORMAT.md, and the message it must give.
+// A change that makes a valid table violate one paragraph of FORMAT.md, and the expected message.
 template <class Table>
 struct Violation {
   const char* name;
@@ -44,18 +44,18 @@ Bytes content_of(flatbuffers::FlatBufferBuilder& builder, const Root& root,
   return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
 }
 
-// What the decoder of a kind of tile says of such a content.
+// The error message of the decoder of a kind of tile for such a content.
 template <class Tile>
 std::string message_of(const Bytes& content, Result<Tile> (*decode)(ByteView encoded)) {
   const Result<Tile> tile = decode(compress_frame(content));
   return tile ? "no error" : tile.error().line();
 }
 
-// Those that break the head of tiles along a segment, before the kind's own.
+// Violations of the head of tiles along a segment, followed by those of the kind.
 template <class Table>
 std::vector<Violation<Table>> with_broken_heads(std::vector<Violation<Table>> violations) {
-  const char* const kSegment = "the segment's id is not one (FORMAT.md 3.4)";
-  const char* const kOrigin = "the origin is not an along (FORMAT.md 3.4)";
+  const char* const kSegment = "the segment id is invalid (FORMAT.md 3.4)";
+  const char* const kOrigin = "origin_m is out of range (FORMAT.md 3.4)";
   violations.insert(violations.begin(),
                     {{"EmptySegment", [](Table& t) { t.segment = ""; }, kSegment},
                      {"SegmentWithSlash", [](Table& t) { t.segment = "a/b"; }, kSegment},
@@ -72,8 +72,8 @@ void expect_truncations_refused(const Bytes& content, const FromTable& from_tabl
   }
 }
 
-// Damage behind a good checksum, as a hostile server would send it: refused or harmless, and what
-// is taken satisfies FORMAT.md.
+// Damage with a valid checksum, as a hostile server would send it: rejected or harmless, and what
+// is accepted satisfies FORMAT.md.
 template <class FromTable, class ToTable>
 void expect_damage_harmless(const Bytes& good, const FromTable& from_table,
                             const ToTable& to_table) {

@@ -1,5 +1,5 @@
-// Tiles of landmarks: kept to the nearest step, and tables that break one paragraph of FORMAT.md
-// each.
+// Tiles of landmarks: the round trip to the nearest step, and tables that each violate one
+// paragraph of FORMAT.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// The arrays of a sound table of two landmarks.
+// The arrays of a valid table of two landmarks.
 struct Table {
   std::string segment = "s";
   double origin_m = 240;
@@ -80,8 +80,8 @@ TEST(LandmarkTable, TheSoundOneIsTaken) {
   EXPECT_EQ(second.observations, 255);
 }
 
-// As real ones are spread: descriptors with less in each further value, landmarks on both sides of
-// a road to the north-east, nearly all of them seen for some metres.
+// Distributed like real ones: descriptors with decreasing variance, landmarks on both sides of a
+// road to the north-east, nearly all of them visible for some metres.
 LandmarkTile random_tile(double origin_m, int count) {
   std::mt19937 random(7);
   const auto uniform = [&](double a, double b) {
@@ -113,7 +113,7 @@ LandmarkTile random_tile(double origin_m, int count) {
   return tile;
 }
 
-// landmark.h promises these steps.
+// landmark.h guarantees these steps.
 TEST(LandmarkTable, KeepsEveryLandmarkToHalfAStep) {
   const LandmarkTile tile = random_tile(100000.123456789, 300);
   const auto decoded = decode_landmarks(encode_landmarks(tile));
@@ -207,7 +207,7 @@ TEST(LandmarkTable, TakesATileWithoutLandmarks) {
   const auto decoded = decode_landmarks(frame);
   ASSERT_TRUE(decoded.ok()) << decoded.error().line();
   EXPECT_TRUE(decoded->landmarks.empty());
-  EXPECT_LT(frame.size(), 140U);  // what a tile costs beyond its landmarks
+  EXPECT_LT(frame.size(), 140U);  // the overhead of a tile
 }
 
 TEST(LandmarkTable, ALandmarkTakesLessThan31Bytes) {
@@ -252,7 +252,7 @@ const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
     {"LongLength", [](Table& t) { t.length_dm.push_back(1); },
      "the length of length_dm is not that of observations (FORMAT.md 5.3)"},
     {"DescriptorValues", [](Table& t) { t.descriptor_values = 16; },
-     "tile s/12: a descriptor is not of 32 values (FORMAT.md 5.4)"},
+     "tile s/12: a descriptor does not have 32 values (FORMAT.md 5.4)"},
     {"ShortDescriptors", [](Table& t) { t.descriptors.pop_back(); }, kDescriptors},
     {"LongDescriptors", [](Table& t) { t.descriptors.push_back(0); }, kDescriptors},
     {"ShortLow", [](Table& t) { t.position_low.pop_back(); }, kPositions},
@@ -266,7 +266,7 @@ const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
      },
      "tile s/12, landmark 1: it begins more than 6553.5 m after the origin (FORMAT.md 5.7)"},
     {"FarEnd", [](Table& t) { t.origin_m = 1e8 - 30; },
-     "tile s/12, landmark 0: the along range is not one of alongs (FORMAT.md 5.7)"},
+     "tile s/12, landmark 0: the along range is out of range (FORMAT.md 5.7)"},
     {"TwoObservations", [](Table& t) { t.observations[0] = 2; },
      "tile s/12, landmark 0: fewer than 3 observations (FORMAT.md 5.8)"},
 });

@@ -1,4 +1,4 @@
-// Tiles of observations: kept as they are, and tables that break one paragraph of FORMAT.md each.
+// Tiles of observations: the round trip, and tables that each violate one paragraph of FORMAT.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using testing::kInfinity;
 using testing::kNan;
 
-// The arrays of a sound table of two tracklets, of three and of four observations.
+// The arrays of a valid table of two tracklets, with three and with four observations.
 struct Table {
   std::string segment = "s";
   int model = 0;
@@ -140,7 +140,7 @@ const char* const kSum = "the length of scale_px is not the sum of observations 
 const char* const kDescriptors =
     "the length of descriptors is not 128 times that of scale_px (FORMAT.md 4.4)";
 const char* const kScale = "tracklet 1: a scale is not finite and above 0 (FORMAT.md 4.5)";
-const char* const kAlong = "tracklet 1: the along of an observation is not one (FORMAT.md 4.5)";
+const char* const kAlong = "tracklet 1: along_m of an observation is out of range (FORMAT.md 4.5)";
 
 const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
     {"UnknownModel", [](Table& t) { t.model = 2; }, "the scale model is unknown (FORMAT.md 3.4)"},
@@ -152,7 +152,7 @@ const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
     {"ShortCounts", [](Table& t) { t.observations.pop_back(); },
      "the length of observations is not that of slope (FORMAT.md 4.3)"},
     {"DescriptorBytes", [](Table& t) { t.descriptor_bytes = 64; },
-     "a descriptor is not of 128 bytes (FORMAT.md 4.4)"},
+     "a descriptor does not have 128 bytes (FORMAT.md 4.4)"},
     {"TooManyCounted", [](Table& t) { t.observations[0] = 4; }, kSum},
     {"TooFewCounted", [](Table& t) { t.observations[1] = 3; }, kSum},
     {"ShortScale", [](Table& t) { t.scale_px.pop_back(); }, kSum},
@@ -173,7 +173,7 @@ const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
     {"NanAlong", [](Table& t) { t.along_m[4] = kNan; }, kAlong},
     {"FarAlong", [](Table& t) { t.along_m[6] = 2e8F; }, kAlong},
     {"AlongOrder", [](Table& t) { t.along_m[4] = 1; },
-     "tracklet 1: the alongs of the observations do not ascend (FORMAT.md 4.5)"},
+     "tracklet 1: along_m of the observations does not ascend (FORMAT.md 4.5)"},
     {"NanOffset", [](Table& t) { t.offset_m[1] = kNan; }, "(FORMAT.md 3.6)"},
     {"ZeroSlope", [](Table& t) { t.slope[1] = 0; }, "(FORMAT.md 3.6)"},
     {"LargeRSquared", [](Table& t) { t.r_squared[0] = 1.01F; }, "(FORMAT.md 3.10)"},

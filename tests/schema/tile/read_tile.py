@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Reads a stored tile as FORMAT.md tells, without milepost's code, and prints what it holds.
+"""Reads a stored tile by FORMAT.md, without milepost's code, and prints its content.
 
 usage: read_tile.py GENERATED TILE     GENERATED: folder of flatc's Python code for tile.fbs and
                                        landmark_tile.fbs
-Exit code 77 where a Python module is missing.
+Exit code 77 if a Python module is missing.
 """
 import sys
 

@@ -1,4 +1,4 @@
-// Tables built by hand: well-formed FlatBuffers that break one paragraph of FORMAT.md each.
+// Tables built by hand: well-formed FlatBuffers that each violate one paragraph of FORMAT.md.
 #include "schema/tile/table.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using testing::kInfinity;
 using testing::kNan;
 
-// The arrays of a sound table of two tracklets.
+// The arrays of a valid table of two tracklets.
 struct Table {
   std::string segment = "s";
   int model = 1;
@@ -79,7 +79,7 @@ const char* const kOffset = "tile s/12, tracklet 1: the offset is not finite (FO
 const char* const kScaleMin = "tracklet 0: the smallest scale is not above 0 (FORMAT.md 3.7)";
 const char* const kScaleMax =
     "tracklet 0: the largest scale is not finite and at least the smallest (FORMAT.md 3.7)";
-const char* const kAlong = "tracklet 1: the along range is not one of alongs (FORMAT.md 3.8)";
+const char* const kAlong = "tracklet 1: the along range is out of range (FORMAT.md 3.8)";
 const char* const kAlongOrder = "the along range ends before it begins (FORMAT.md 3.8)";
 const char* const kPixels = "the pixel range ends before it begins (FORMAT.md 3.9)";
 const char* const kRSquared = "tracklet 0: R squared is not in [0, 1] (FORMAT.md 3.10)";
@@ -88,7 +88,7 @@ const char* const kSigma = "the residual sigma is not finite and at least 0 (FOR
 const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
     {"UnknownModel", [](Table& t) { t.model = 2; }, "the scale model is unknown (FORMAT.md 3.4)"},
     {"DescriptorBytes", [](Table& t) { t.descriptor_bytes = 64; },
-     "tile s/12: a descriptor is not of 128 bytes (FORMAT.md 3.5)"},
+     "tile s/12: a descriptor does not have 128 bytes (FORMAT.md 3.5)"},
     {"ShortDescriptors", [](Table& t) { t.descriptors.pop_back(); },
      "the length of descriptors is not 128 times that of slope (FORMAT.md 3.5)"},
     {"LongDescriptors", [](Table& t) { t.descriptors.push_back(0); },

@@ -11,7 +11,7 @@ TEST(Tracklet, TheVariableOfTheRegressionIsTheModels) {
 }
 
 // A feature at 130 m whose scale is 200 / distance: seen with 8 px from 25 m before it.
-TEST(Tracklet, EstimatesAlongFromScale) {
+TEST(Tracklet, EstimatesArcLengthFromScale) {
   Tracklet tracklet;
   tracklet.offset_m = 130;
   tracklet.slope = 200;

@@ -1,5 +1,5 @@
-// Tiles of walls: how walls are laid into cells, and tables that break one paragraph of FORMAT.md
-// each.
+// Tiles of walls: the assignment of walls to cells, and tables that each violate one paragraph of
+// FORMAT.md.
 #include "schema/tile/wall.h"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 const std::uint32_t kCell = GridCell::at(49.0012, 8.4031).number();
 
-// The arrays of a sound table of two walls.
+// The arrays of a valid table of two walls.
 struct Table {
   std::uint32_t cell = kCell;
   std::vector<std::int32_t> begin_north = {120'000, -3'000};

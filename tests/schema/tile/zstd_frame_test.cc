@@ -1,5 +1,4 @@
-// Frames that another program could have made of a tile's content, but FORMAT.md 3.2 does not
-// allow.
+// zstd frames that another program could produce from a tile's content, but FORMAT.md 3.2 forbids.
 #include "schema/tile/zstd_frame.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +40,7 @@ TEST(Frame, GivesBackItsContent) {
   EXPECT_EQ(*expand_frame(compress_frame({})), Bytes());
 }
 
-// Bytes of one distribution, then of another.
+// Bytes of two successive distributions.
 Bytes two_halves() {
   std::mt19937 random(3);
   Bytes content;
@@ -100,7 +99,7 @@ TEST(Frame, NothingMayFollow) {
 TEST(Frame, ADamagedContentBreaksTheChecksum) {
   Bytes frame = compress_frame(kContent);
   frame.back() ^= 1U;
-  EXPECT_THAT(message(frame), HasSubstr("does not expand: "));
+  EXPECT_THAT(message(frame), HasSubstr("cannot be decompressed: "));
   EXPECT_THAT(message(frame), HasSubstr("checksum"));
 }
 
@@ -109,7 +108,7 @@ TEST(Frame, ASkippableFrameIsNone) {
   EXPECT_THAT(message(skippable), HasSubstr("no zstd frame starts here (FORMAT.md 3.2)"));
 }
 
-// Raw blocks of nothing without an end: a stream of them must not be waited out.
+// An endless sequence of empty raw blocks, which must not be read to its end.
 TEST(Frame, AnEndlessFrameIsRefused) {
   Bytes stream = {0x28, 0xB5, 0x2F, 0xFD, 0x04, 0x00};
   stream.resize(stream.size() + 3 * 5'700'000, 0);

@@ -1,7 +1,7 @@
-# Installs the build in BUILD into a prefix of its own under WORK, then builds and runs programs that
-# know nothing but this prefix: with CMake (shared, static) and with pkg-config (shared, static), and
-# the example. Looks at what is installed: public headers only, each of which compiles alone as C++17,
-# and a shared library that shows nothing but the interface.
+# Installs the build in BUILD into a prefix under WORK, then builds and runs programs that use only this
+# prefix: with CMake (shared, static), with pkg-config (shared, static), and the example. Checks what is
+# installed: only the public headers, each of which compiles alone as C++17, and a shared library that
+# exports only the public interface.
 file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)
 
@@ -17,7 +17,7 @@ file(GLOB public RELATIVE ${SOURCE}/client/include ${SOURCE}/client/include/mile
 list(SORT installed)
 list(SORT public)
 if(NOT installed STREQUAL public OR installed STREQUAL "")
-  message(FATAL_ERROR "installed are the headers\n${installed}\nand public are\n${public}")
+  message(FATAL_ERROR "the installed headers are\n${installed}\nbut the public headers are\n${public}")
 endif()
 foreach(header IN LISTS installed)
   file(WRITE ${WORK}/alone.cc "#include <${header}>\n")
@@ -28,7 +28,7 @@ foreach(header IN LISTS installed)
   endif()
 endforeach()
 
-# What the shared library shows.
+# Exported symbols of the shared library.
 file(GLOB_RECURSE shared ${prefix}/*/libmilepost.so)
 execute_process(COMMAND nm -D --defined-only -C ${shared} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX REPLACE "\n$" "" symbols "${symbols}")
@@ -36,13 +36,13 @@ string(REPLACE ";" "," symbols "${symbols}")
 string(REPLACE "\n" ";" symbols "${symbols}")
 list(LENGTH symbols count)
 foreach(symbol IN LISTS symbols)
-  if(NOT symbol MATCHES " A MILEPOST_0$" AND NOT symbol MATCHES " T milepost::vehicle::(name_of|Localizer::|Finder::)"
+  if(NOT symbol MATCHES " A MILEPOST_0$" AND NOT symbol MATCHES " T milepost::vehicle::(name_of|Localizer::|GlobalLocalizer::)"
      OR symbol MATCHES "::Impl::")
-    message(FATAL_ERROR "libmilepost.so shows ${symbol}")
+    message(FATAL_ERROR "libmilepost.so exports ${symbol}")
   endif()
 endforeach()
 if(count LESS 10)
-  message(FATAL_ERROR "libmilepost.so shows ${count} symbols only")
+  message(FATAL_ERROR "libmilepost.so exports only ${count} symbols")
 endif()
 
 # CMake package.

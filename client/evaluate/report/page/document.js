@@ -1,4 +1,4 @@
-// What a page says in words: its head, tables, legends and captions. Text of the data becomes text nodes only.
+// The textual parts of a page: head, tables, legends and captions. Strings of the data become text nodes only.
 'use strict';
 
 const page = JSON.parse(document.getElementById('data').textContent);
@@ -11,7 +11,7 @@ function h(tag, attributes = {}, ...children) {
   return node;
 }
 
-// For readers: a true minus sign, an en dash for what is missing.
+// A formatted number: typographic minus sign, an en dash for missing values.
 function number(value, decimals, signed = false) {
   if (value === null || value === undefined) return '–';
   const digits = Math.abs(value).toFixed(decimals);
@@ -19,7 +19,7 @@ function number(value, decimals, signed = false) {
   return (value < 0 ? '−' : signed ? '+' : '') + digits;
 }
 
-// A column of the page by its name, or the values themselves.
+// A column of the page by its name, or an array of values itself.
 const column = (reference) => typeof reference === 'string' ? page.columns[reference] : reference;
 
 function cell(value, of, isBest) {
@@ -38,7 +38,7 @@ function table(part) {
   return h('table', {}, h('thead', {}, h('tr', {}, ...heads)), h('tbody', {}, ...part.rows.map((each) => row(each, part.columns))));
 }
 
-// What a layer of a plot looks like, on 22 x 12 pixels.
+// The legend sample of a layer, 22 x 12 pixels.
 function sample(layer) {
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
   const shape = (tag, attributes) => {
@@ -63,7 +63,7 @@ function sample(layer) {
   return svg;
 }
 
-// One entry a name; of two layers with one name the first is shown.
+// One entry per name; of several layers with the same name the first is shown.
 function legend(layers) {
   const named = new Map();
   for (const layer of layers) if (layer.name && !named.has(layer.name)) named.set(layer.name, layer);
@@ -94,7 +94,7 @@ const parts = {
 
 const shown = (part) => parts[part.part](part);
 
-const HOW = 'Drag across a plot to zoom, double-click for all of it; a plan moves by dragging and zooms by the wheel. By keys: arrows, + and −, Escape.';
+const HOW = 'Drag across a plot to zoom in, double-click to reset. Drag a plan to move it and use the mouse wheel to zoom. Keys: arrows, + and −, Escape.';
 
 function head() {
   document.title = `${page.title} – milepost ${page.kind}`;

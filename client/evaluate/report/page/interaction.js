@@ -1,12 +1,12 @@
-// One cursor and one zoom for all plots over frames; a view of its own for each plan.
+// Interaction: one cursor and one zoom for all plots over frames, and an independent view for each plan.
 
 const LEAST_DRAG_PX = 4;
-const NEAR_PX = 24;        // of a frame on a plan
-const SCROLLING_MS = 400;  // a wheel that scrolls the page does not begin to zoom
+const NEAR_PX = 24;        // distance to a frame on a plan
+const SCROLLING_MS = 400;  // after scrolling the page, the mouse wheel does not zoom
 let cursor = null;         // number of a frame
 let scrolled = -Infinity;
 
-// So that rounding cannot leave out a tick at an end.
+// Keeps ticks at the ends despite rounding.
 function widen(axis) {
   const margin = axis.log ? 0 : 1e-9 * (axis.max - axis.min);
   if (margin) Object.assign(axis, {min: axis.min - margin, max: axis.max + margin});
@@ -31,7 +31,7 @@ function setRange(plot, which, [min, max]) {
   Object.assign(plot.chart.options.scales[which], {min, max});
 }
 
-// A line through more points than its layer bears is left to the dots.
+// Hides a line with more visible points than its layer allows; its dots remain.
 function update(plot) {
   const [from, to] = [plot.chart.options.scales.x.min, plot.chart.options.scales.x.max];
   for (const each of plot.chart.data.datasets) {
@@ -42,13 +42,13 @@ function update(plot) {
   showCursor(plot);
 }
 
-// Plots that zoom together.
+// The plots that zoom together.
 const together = (plot) => plot.spec.frames ? plots.filter((each) => each.spec.frames) : [plot];
 
-function zoomTo(plot, across, upwards) {
+function zoomTo(plot, rangeX, rangeY) {
   for (const each of together(plot)) {
-    setRange(each, 'x', across);
-    if (upwards) setRange(each, 'y', upwards);
+    setRange(each, 'x', rangeX);
+    if (rangeY) setRange(each, 'y', rangeY);
     update(each);
   }
 }
@@ -60,7 +60,7 @@ function reset(plot) {
   }
 }
 
-// About a share of the width, and of the height of a plan.
+// Zooms around a point given as a share of the width, and of the height of a plan.
 function zoomBy(plot, factor, shareX = 0.5, shareY = 0.5) {
   const about = ([from, to], share) => [from + (to - from) * share * (1 - factor), to - (to - from) * (1 - share) * (1 - factor)];
   zoomTo(plot, about(range(plot, 'x'), shareX), plot.spec.plan && about(range(plot, 'y'), shareY));
@@ -72,7 +72,7 @@ function moveBy(plot, rightPx, downPx) {
   zoomTo(plot, moved(range(plot, 'x'), -rightPx / width), moved(range(plot, 'y'), downPx / height));
 }
 
-// Where a frame lies in a plot, in pixels; null where it does not.
+// The position of a frame in a plot, in pixels; null if it is not visible.
 function place({spec, chart: {scales: {x, y}, chartArea}}, frame) {
   const at = column(spec.plan ? page.frames.east : page.frames.x)[frame];
   const north = spec.plan ? column(page.frames.north)[frame] : null;
@@ -111,13 +111,13 @@ function setCursor(frame) {
   if (frame !== null) readout.replaceChildren(...readoutOf(frame));
 }
 
-// At the foot of the window, or at its head where the foot would hide the plot.
+// Docks the readout to the bottom of the window, or to its top if it would cover the plot.
 function dockReadout(clientY) {
   const readout = document.getElementById('readout');
   readout.classList.toggle('above', clientY > innerHeight - readout.offsetHeight - 60);
 }
 
-// What the methods, or the finder, said of a frame.
+// The values of each method for a frame.
 function readoutOf(frame) {
   const {label, x, decimals, unit, names, rows} = page.frames;
   const value = (of) => {
@@ -136,7 +136,7 @@ function hover(plot, event) {
   dockReadout(event.clientY);
 }
 
-// A drag moves a plan, and chooses a stretch of other plots.
+// Dragging moves a plan, and selects a range of other plots.
 function listenToPointer(plot) {
   const {box, spec} = plot;
   const chosen = box.querySelector('.chosen');
@@ -184,7 +184,7 @@ function listenToWheel(plot) {
   }, {passive: false});
 }
 
-// Arrow keys move the cursor, or a plan; + and - zoom, Escape shows everything.
+// Arrow keys move the cursor, or a plan; + and - zoom, Escape resets.
 function listenToKeys(plot) {
   const step = (frames) => {
     const last = column(page.frames.x).length - 1;
@@ -212,11 +212,11 @@ function addButtons(plot) {
     node.addEventListener('click', act);
     return node;
   };
-  plot.box.append(h('div', {class: 'buttons'}, button('+', 'nearer', () => zoomBy(plot, 0.5)), button('−', 'farther', () => zoomBy(plot, 2)),
-    button('◻', 'all of it', () => reset(plot))));
+  plot.box.append(h('div', {class: 'buttons'}, button('+', 'zoom in', () => zoomBy(plot, 0.5)), button('−', 'zoom out', () => zoomBy(plot, 2)),
+    button('◻', 'reset', () => reset(plot))));
 }
 
-// A metre of a plan is as long to the east as to the north.
+// Sets the height of a plan so that both axes have the same scale.
 function fit({spec, box, chart}) {
   const {width, height} = chart.chartArea;
   const missing = width * (spec.y.max - spec.y.min) / (spec.x.max - spec.x.min) - height;

@@ -1,13 +1,13 @@
-// Plots: what the data's layers are in the charting library's terms. Layers come from back to front.
+// Plots: translates the layers of the data to the charting library. Layers are ordered from back to front.
 
-const LEFT_PX = 52, RIGHT_PX = 12, AROUND_PX = 80;  // for the axes' labels beside, and above and below plots
+const LEFT_PX = 52, RIGHT_PX = 12, AROUND_PX = 80;  // margins for axis labels
 const LANE_PX = 9;
-const STATUS = {  // looks that differ in more than colour
+const STATUS = {  // styles that differ in more than colour
   initializing: {colour: 'muted', width_px: 5, opacity: 0.4}, predicted: {colour: 'muted', width_px: 2}, lost: {colour: 'ink', width_px: 5},
   'off-map': {colour: 'muted', width_px: 5, dash: [2, 3]}, tracking: {colour: 'm0', width_px: 5},
 };
 
-const plots = [];  // {spec, box, canvas, chart}: all of the page
+const plots = [];  // {spec, box, canvas, chart}: all plots of the page
 
 // A colour of the style sheet by its name.
 function colour(name, opacity = 1) {
@@ -36,7 +36,7 @@ function dataset(layer, data, more = {}) {
   };
 }
 
-// Points beyond the y axis, as arrow heads at its edge.
+// Points outside the y axis range as arrow heads at its edge.
 function arrows(layer, data, y) {
   const beyond = data.filter((point) => point.y !== null && (point.y > y.max || point.y < y.min));
   return dataset({...layer, marker: 'triangle', radius_px: 4}, beyond.map(({x, y: at}) => ({x, y: at > y.max ? y.max : y.min})),
@@ -56,7 +56,7 @@ const datasetsOf = {
   texts: () => [],
 };
 
-// The library draws the first last. A pale edge makes a line legible on pictures.
+// The library draws the first dataset last. A pale edge makes a line legible on background images.
 function datasets(spec) {
   return [...spec.layers].reverse().flatMap((layer) => {
     const own = datasetsOf[layer.kind](layer, spec);
@@ -70,7 +70,7 @@ function roundStep(least) {
   return power * [1, 2, 5, 10].find((each) => each * power >= least * 0.999);
 }
 
-// Ticks equally far apart on both axes of a plan.
+// The tick spacing of both axes of a plan.
 const planStep = (chart) => roundStep((chart.options.scales.x.max - chart.options.scales.x.min) / 7);
 
 function ticks(built, axis, isPlan) {
@@ -99,13 +99,13 @@ function scale(spec, which) {
       maxTicksLimit: 9, callback: text},
     afterBuildTicks: (built) => { built.ticks = ticks(built, axis, spec.plan); },
     afterFit: (fitted) => {
-      if (isX) Object.assign(fitted, {height: fitted.height - lanes, paddingLeft: 0, paddingRight: 0});  // it pads lanes twice
+      if (isX) Object.assign(fitted, {height: fitted.height - lanes, paddingLeft: 0, paddingRight: 0});  // the library would pad the lanes twice
       else if (!axis.names) fitted.width = LEFT_PX;
     },
   };
 }
 
-// Of plots that are not of frames: the values beside the pointer.
+// The tooltip of plots that are not over frames.
 function tooltip(spec) {
   return {
     enabled: !spec.frames && !spec.plan, filter: (item) => item.dataset.label,
@@ -134,7 +134,7 @@ function configuration(spec) {
   };
 }
 
-// What the library does not draw: the ground of plans, words, lanes, the scale bar and north.
+// Drawn without the library: the background image of plans, texts, lanes, the scale bar and the north arrow.
 function trimmings(spec) {
   return {
     beforeDatasetsDraw: (chart) => { if (spec.plan) drawPicture(chart); },
@@ -189,7 +189,7 @@ function drawLane({ctx, scales: {x}, chartArea}, lane, y) {
 
 let picture = null;
 
-// From above, beneath plans; the matrix takes its unit square, y downwards, to metres east and north.
+// The background image of plans; the matrix maps its unit square, y downwards, to metres east and north.
 function loadPicture() {
   if (!page.ground || !page.ground.picture) return;
   picture = new Image();

@@ -28,31 +28,32 @@ TEST(PaperKalman, TheWeightMultipliesTheMeasurementsVariance) {  // section 4.2.
   EXPECT_NEAR(update(predicted, {103.5, 1, 10}, 0).along_m, 103.5, 1e-12);
 }
 
-// By hand: speed 10 +- 2, along 50 +- 1, 0.5 s -> along 55, variance 1 + 0.25 * 4 + q / 24.
+// By hand: speed 10 +- 2, arc length 50 +- 1, 0.5 s -> arc length 55, variance 1 + 0.25 * 4 + q /
+// 24.
 TEST(MotionKalman, PredictByHand) {
   MotionBelief belief;
-  belief.mean = {50, 10};
-  belief.covariance << 1, 0, 0, 4;
+  belief.x = {50, 10};
+  belief.P << 1, 0, 0, 4;
   const MotionBelief predicted = predict(belief, 0.5, 2);
-  EXPECT_DOUBLE_EQ(predicted.mean[0], 55);
-  EXPECT_DOUBLE_EQ(predicted.mean[1], 10);
-  EXPECT_NEAR(predicted.covariance(0, 0), 1 + 0.25 * 4 + 4 * 0.125 / 3, 1e-12);
-  EXPECT_NEAR(predicted.covariance(0, 1), 0.5 * 4 + 4 * 0.25 / 2, 1e-12);
-  EXPECT_NEAR(predicted.covariance(1, 1), 4 + 4 * 0.5, 1e-12);
+  EXPECT_DOUBLE_EQ(predicted.x[0], 55);
+  EXPECT_DOUBLE_EQ(predicted.x[1], 10);
+  EXPECT_NEAR(predicted.P(0, 0), 1 + 0.25 * 4 + 4 * 0.125 / 3, 1e-12);
+  EXPECT_NEAR(predicted.P(0, 1), 0.5 * 4 + 4 * 0.25 / 2, 1e-12);
+  EXPECT_NEAR(predicted.P(1, 1), 4 + 4 * 0.5, 1e-12);
 }
 
-// By hand: variances 2 and 2 -> gain 1/2 on along, covariance(0,1) / 4 = 1/4 on speed.
+// By hand: variances 2 and 2 -> gain 1/2 on arc length, covariance(0,1) / 4 = 1/4 on speed.
 TEST(MotionKalman, UpdateByHand) {
   MotionBelief predicted;
-  predicted.mean = {55, 10};
-  predicted.covariance << 2, 1, 1, 4;
+  predicted.x = {55, 10};
+  predicted.P << 2, 1, 1, 4;
   const MotionBelief updated = update(predicted, {57, std::sqrt(2.0), 9});
-  EXPECT_NEAR(updated.mean[0], 56, 1e-12);
-  EXPECT_NEAR(updated.mean[1], 10.5, 1e-12);
-  EXPECT_NEAR(updated.covariance(0, 0), 1, 1e-12);
-  EXPECT_NEAR(updated.covariance(0, 1), 0.5, 1e-12);
-  EXPECT_NEAR(updated.covariance(1, 0), 0.5, 1e-12);
-  EXPECT_NEAR(updated.covariance(1, 1), 4 - 0.25, 1e-12);
+  EXPECT_NEAR(updated.x[0], 56, 1e-12);
+  EXPECT_NEAR(updated.x[1], 10.5, 1e-12);
+  EXPECT_NEAR(updated.P(0, 0), 1, 1e-12);
+  EXPECT_NEAR(updated.P(0, 1), 0.5, 1e-12);
+  EXPECT_NEAR(updated.P(1, 0), 0.5, 1e-12);
+  EXPECT_NEAR(updated.P(1, 1), 4 - 0.25, 1e-12);
 }
 
 }  // namespace

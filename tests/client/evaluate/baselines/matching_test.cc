@@ -12,8 +12,8 @@ namespace {
 
 constexpr AlongRange kRoad = {0, 100};
 
-// The feature of a fixed size at 40 m, seen from 10, 12, ... 20 m: scale = 90 / distance. Each
-// observation has a descriptor of its own, some way from the next one's.
+// A feature of fixed size at 40 m, observed from 10, 12, ... 20 m: scale = 90 / distance. Each
+// observation has its own descriptor, at some distance from the next one's.
 ObservedTracklet approached(std::mt19937& random) {
   std::uniform_int_distribution<int> byte(40, 200);
   Descriptor descriptor;
@@ -56,8 +56,8 @@ class Matching : public ::testing::Test {
     return window;
   }
 
-  // Tracklet 7's feature as it is seen from `along_m`, with the descriptor of an observation.
-  FeatureSet seen_from(double along_m, std::size_t observation) const {
+  // Tracklet 7's feature as observed from `along_m`, with the descriptor of an observation.
+  FeatureSet observe(double along_m, std::size_t observation) const {
     FeatureSet query;
     query.features.push_back({100, 100, static_cast<float>(90 / (40 - along_m))});
     query.descriptors.push_back(tracks_[7].track[observation].descriptor);
@@ -71,7 +71,7 @@ class Matching : public ::testing::Test {
 
 TEST_F(Matching, RegressesBetweenTheFrames) {  // Eq. 3
   for (const TrackletWindow* window : {averaged_.get(), observed_.get()}) {
-    const auto matches = match_tracklets(seen_from(13.3, 2), 1, 600, *window, kRoad, {});
+    const auto matches = match_tracklets(observe(13.3, 2), 1, 600, *window, kRoad, {});
     ASSERT_EQ(matches.size(), 1U);
     EXPECT_EQ(matches[0].tracklet, 7U);
     EXPECT_NEAR(matches[0].estimate.along_m, 13.3, 1e-4);
@@ -83,8 +83,7 @@ TEST_F(Matching, TheClosestObservationIsWhereItsFrameWas) {  // section 5.2, com
   settings.estimation = Estimation::closest_observation;
   settings.neighbours = 20;
   for (const auto& [along_m, frame_m] : {std::pair(13.3, 14), std::pair(12.7, 12), {19.4, 20}}) {
-    const auto matches =
-        match_tracklets(seen_from(along_m, 2), 1, 600, *observed_, kRoad, settings);
+    const auto matches = match_tracklets(observe(along_m, 2), 1, 600, *observed_, kRoad, settings);
     ASSERT_EQ(matches.size(), 1U) << along_m;
     EXPECT_NEAR(matches[0].estimate.along_m, frame_m, 1e-4);
     EXPECT_NEAR(matches[0].estimate.sigma_m, 2, 1e-4);  // the spacing of the frames
@@ -92,24 +91,24 @@ TEST_F(Matching, TheClosestObservationIsWhereItsFrameWas) {  // section 5.2, com
 }
 
 TEST_F(Matching, DescriptorsOfOneTrackletDoNotCompete) {
-  FeatureSet query = seen_from(13, 2);
-  for (std::size_t k = 0; k < 64; ++k) {  // half of one observation's, half of the next one's
+  FeatureSet query = observe(13, 2);
+  for (std::size_t k = 0; k < 64; ++k) {  // half from one observation, half from the next one
     query.descriptors[0][k] = tracks_[7].track[3].descriptor[k];
   }
   MatchSettings settings;
   settings.neighbours = 20;  // more than the tracklet has
   EXPECT_EQ(match_tracklets(query, 1, 600, *observed_, kRoad, settings).size(), 1U);
-  settings.neighbours = 2;  // others that were not looked at may be as near as the second
+  settings.neighbours = 2;  // others that were not examined may be as near as the second
   EXPECT_TRUE(match_tracklets(query, 1, 600, *observed_, kRoad, settings).empty());
 }
 
 TEST_F(Matching, AScaleOutsideTheTrackletsRangeIsNoMatch) {  // section 4.2.2
-  EXPECT_TRUE(match_tracklets(seen_from(25, 2), 1, 600, *averaged_, kRoad, {}).empty());
-  EXPECT_EQ(match_tracklets(seen_from(25, 2), 0.7, 600, *averaged_, kRoad, {}).size(), 1U);
+  EXPECT_TRUE(match_tracklets(observe(25, 2), 1, 600, *averaged_, kRoad, {}).empty());
+  EXPECT_EQ(match_tracklets(observe(25, 2), 0.7, 600, *averaged_, kRoad, {}).size(), 1U);
 }
 
 TEST_F(Matching, ATrackletElsewhereIsNoMatch) {
-  EXPECT_TRUE(match_tracklets(seen_from(13, 2), 1, 600, *averaged_, {30, 60}, {}).empty());
+  EXPECT_TRUE(match_tracklets(observe(13, 2), 1, 600, *averaged_, {30, 60}, {}).empty());
 }
 
 }  // namespace

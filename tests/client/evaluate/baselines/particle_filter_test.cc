@@ -4,7 +4,7 @@
 #include <random>
 
 #include "client/evaluate/baselines/along_filter.h"
-#include "client/evaluate/baselines/tracker.h"
+#include "client/evaluate/baselines/arc_length_tracker.h"
 
 namespace milepost {
 namespace {
@@ -13,8 +13,8 @@ constexpr std::size_t kParticles = 4000;
 
 // A vehicle at constant speed, disturbed and measured with Gaussian noise: the Kalman filter is
 // exact, and particles differ from it by sampling only. A mean of n samples is off by sigma /
-// sqrt(n), a variance by sqrt(2 / n) of itself; weighing makes samples count for fewer, and a part
-// of a frame's error carries over to the next, so twice that is allowed over all frames.
+// sqrt(n), a variance by sqrt(2 / n) of itself; weights reduce the effective number of samples, and
+// a part of a frame's error carries over to the next, so twice that is allowed over all frames.
 TEST(ParticleFilter, IsTheKalmanFilterOnALinearGaussianCase) {
   constexpr int kFrames = 400;
   const double step_m = 2;

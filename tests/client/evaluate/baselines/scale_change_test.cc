@@ -21,7 +21,7 @@ FeatureSet random_features(std::size_t count) {
   return set;
 }
 
-// The same features, as the scales of half are multiplied by `grown`, those of the others divided.
+// The same features, with half of their scales multiplied by `grown` and the others divided by it.
 FeatureSet changed(FeatureSet set, float grown) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     set.features[i].scale_px *= i % 2 == 0 ? grown : 1 / grown;

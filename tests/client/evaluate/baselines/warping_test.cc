@@ -30,7 +30,8 @@ Case random_case(unsigned seed, std::size_t queries, std::size_t frames) {
   return c;
 }
 
-// The least cost of all paths that end in query frame i and the map's frame j, each walked through.
+// The least cost of all paths that end in query frame i and the map's frame j, by exhaustive
+// search.
 double by_enumeration(const Case& c, std::size_t i, std::size_t j) {
   if (i == 0) return c.costs[0][j];
   double least = std::numeric_limits<double>::infinity();
@@ -76,7 +77,7 @@ TEST(Warping, GoesForwardOnlyAndNoFartherThanAStep) {
   EXPECT_EQ(row[2].cost, 0);  // from 14 m, 5 m back
 }
 
-// A vehicle that halts and then goes twice as fast: costs with noise, least at the truth.
+// A vehicle that halts and then drives twice as fast: noisy costs, smallest at the truth.
 TEST(Warping, FollowsAVehicleThatHaltsAndSpeedsUp) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> noise(0, 0.3);

@@ -1,4 +1,4 @@
-// Pictures beneath a report's plans, read from real files.
+// Background images of a report's plans, read from real files.
 #include "client/evaluate/report/backdrop.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ class BackdropTest : public ::testing::Test {
     return folder_ / name;
   }
 
-  // Reading fails with one line that holds each part.
+  // Expects that reading fails with an error line that contains each part.
   static void expect_refused(const std::filesystem::path& image, ErrorCode code,
                              const std::vector<std::string>& parts) {
     const Result<Backdrop> backdrop = read_backdrop(image);
@@ -60,7 +60,7 @@ TEST(PagePicture, IsThePartThatIsShownAtFullResolution) {
   Backdrop backdrop{cv::Mat(1000, 2000, CV_8UC3, cv::Scalar(0, 0, 0)),
                     {1e-5, 0, 0, -1e-5, 8.400005, 48.999995}};
   backdrop.bgr(cv::Rect(1500, 600, 100, 50)).setTo(cv::Scalar(200, 200, 200));
-  // Less than a pixel within the light part on each side.
+  // Less than one pixel inside the light part on each side.
   const std::optional<PagePicture> page =
       page_picture(backdrop, {8.4150025, 48.9935075, 8.4159975, 48.9939975});
   ASSERT_TRUE(page);
@@ -82,8 +82,8 @@ TEST(PagePicture, IsNearlyGrey) {
   const std::optional<PagePicture> page = page_picture(red, red.bounds());
   ASSERT_TRUE(page);
   const cv::Vec3b pixel = cv::imdecode(page->jpeg, cv::IMREAD_COLOR).at<cv::Vec3b>(8, 8);
-  EXPECT_NEAR(pixel[2] - pixel[0], 40, 8);  // a fifth of what it was
-  EXPECT_NEAR(pixel[0], 48, 8);             // four fifths of red's share of grey
+  EXPECT_NEAR(pixel[2] - pixel[0], 40, 8);  // a fifth of the original
+  EXPECT_NEAR(pixel[0], 48, 8);             // four fifths of the share of red in grey
 }
 
 TEST(PagePicture, ThereIsNoneOfABoxOutside) {
@@ -97,7 +97,7 @@ TEST(PagePicture, ThereIsNoneOfABoxOutside) {
 TEST(WorldFile, FindsThePixelOfATurnedPicture) {
   const WorldFile turned{8e-6, 6e-6, 7e-6, -9e-6, 8.4, 49};
   const GeoPoint place = turned.at({320.25, 77.5});
-  const cv::Point2d pixel = turned.pixel_of(place.latitude_deg, place.longitude_deg);
+  const cv::Point2d pixel = turned.project(place.latitude_deg, place.longitude_deg);
   EXPECT_NEAR(pixel.x, 320.25, 1e-6);
   EXPECT_NEAR(pixel.y, 77.5, 1e-6);
 }
@@ -135,7 +135,7 @@ TEST_F(BackdropTest, WhatIsMissingOrBrokenIsNamed) {
   expect_refused(folder_ / "text.png", ErrorCode::invalid_input, {"text.png", "decoded"});
   const std::string whole = *read_text_file(image);
   EXPECT_TRUE(write_text_file(image, whole.substr(0, whole.size() / 2)).ok());
-  expect_refused(image, ErrorCode::invalid_input, {"a.png", "cut short"});
+  expect_refused(image, ErrorCode::invalid_input, {"a.png", "truncated"});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which part of the Earth each plan of a found drive shows.
+// The area of each plan in a global localization report.
 #include "client/evaluate/report/find_plan_areas.h"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@ using testing::FoundRun;
 
 double height_share(const PlanArea& area) { return area.north.length() / area.east.length(); }
 
-// Of a run in which nothing is found, with the particles of a snapshot at places of the test's own.
+// Areas of a run that never converges, with given particles in a snapshot.
 class CloseUp : public ::testing::Test {
  protected:
   std::optional<PlanArea> with_particles_at(const PlanPoint& place) const {

@@ -1,4 +1,4 @@
-// What is kept of a finder's inside, of a drive whose length and fate are not known before.
+// The recorded internal state of a global localizer, for a drive of unknown length and outcome.
 #include "client/evaluate/report/find_recorder.h"
 
 #include <gmock/gmock.h>
@@ -16,9 +16,9 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-constexpr auto kSearching = FindStatus::initializing;
-constexpr auto kTracking = FindStatus::tracking;
-constexpr auto kLost = FindStatus::lost;
+constexpr auto kSearching = GlobalStatus::initializing;
+constexpr auto kTracking = GlobalStatus::tracking;
+constexpr auto kLost = GlobalStatus::lost;
 
 std::vector<std::size_t> shown(const FindRecorder& recorder) {
   std::vector<std::size_t> frames;
@@ -26,10 +26,10 @@ std::vector<std::size_t> shown(const FindRecorder& recorder) {
   return frames;
 }
 
-std::vector<std::size_t> shown_of(const std::vector<FindStatus>& statuses) {
-  const Finder finder = idle_finder(200);
+std::vector<std::size_t> shown_of(const std::vector<GlobalStatus>& statuses) {
+  const GlobalLocalizer localizer = idle_finder(200);
   FindRecorder recorder;
-  for (std::size_t i = 0; i < statuses.size(); ++i) recorder.observe(i, statuses[i], finder);
+  for (std::size_t i = 0; i < statuses.size(); ++i) recorder.observe(i, statuses[i], localizer);
   return shown(recorder);
 }
 
@@ -45,13 +45,13 @@ TEST(FindRecorder, ShowsStartSearchFindingAndEnd) {
 }
 
 TEST(FindRecorder, ShowsWhereItWasFoundAndLostAtFirst) {
-  std::vector<FindStatus> statuses(500, kSearching);
-  const auto set = [&](std::size_t from, std::size_t to, FindStatus status) {
+  std::vector<GlobalStatus> statuses(500, kSearching);
+  const auto set = [&](std::size_t from, std::size_t to, GlobalStatus status) {
     for (std::size_t i = from; i < to; ++i) statuses[i] = status;
   };
   set(101, 203, kTracking);
   set(203, 301, kLost);
-  set(301, 407, FindStatus::predicted);
+  set(301, 407, GlobalStatus::predicted);
   set(407, 500, kLost);
   const auto frames = shown_of(statuses);
   EXPECT_THAT(frames, SizeIs(6));
@@ -67,9 +67,9 @@ TEST(FindRecorder, ShortRunsAreShownWhole) {
   EXPECT_THAT(shown(FindRecorder()), IsEmpty());
 }
 
-TEST(FindRecorder, OfAnyCloudASnapshotHasAtMost1500Particles) {
-  const Finder few = idle_finder(300);
-  const Finder many = idle_finder(4000);
+TEST(FindRecorder, ASnapshotHasAtMost1500Particles) {
+  const GlobalLocalizer few = idle_finder(300);
+  const GlobalLocalizer many = idle_finder(4000);
   FindRecorder recorder;
   recorder.observe(0, kSearching, few);
   recorder.observe(1, kSearching, many);

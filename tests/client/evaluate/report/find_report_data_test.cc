@@ -1,4 +1,4 @@
-// The report of a found drive that is made up, so that a test knows what must be told and drawn.
+// The report of an invented global localization run, so that a test knows the expected contents.
 #include "client/evaluate/report/find_report_data.h"
 
 #include <gmock/gmock.h>
@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "client/evaluate/report/find_report_figures.h"
+#include "client/evaluate/report/report_numbers.h"
 #include "client/evaluate/report/report_page.h"
 #include "tests/client/evaluate/found_run.h"
 #include "tests/client/evaluate/report/page_data.h"
@@ -22,9 +23,7 @@ using testing::layers_of;
 using ::testing::Not;
 using testing::part_of;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// The figures of a run; what the test changes in it must be changed before.
+// The figures of a run; modify the run before they are created.
 struct Drawn {
   explicit Drawn(const FoundRun& run) : input(run.input()), series(found_series(input)) {}
   Drawn(const Drawn&) = delete;
@@ -46,7 +45,7 @@ TEST(FindReportData, TellsTheFigures) {
   const Json rows = part_of(page, "Errors while tracked")["rows"];
   EXPECT_EQ(rows[0]["cells"], Json::parse(R"json(["position (m)",2,2,2,2,0])json"));
   EXPECT_EQ(rows[1]["cells"][1], 3);
-  EXPECT_EQ(part_of(page, "The belief as it went")["parts"].size(), 6U);
+  EXPECT_EQ(part_of(page, "The belief over time")["parts"].size(), 6U);
 }
 
 TEST(FindReportData, AVehicleThatIsNeverFoundIsToldOf) {
@@ -59,13 +58,12 @@ TEST(FindReportData, AVehicleThatIsNeverFoundIsToldOf) {
 TEST(FindReportData, FramesInAWrongPlaceAreToldOf) {
   FoundRun run(40, 10);
   const auto lead = [&] { return find_report_data(run.input())["lead"].get<std::string>(); };
-  EXPECT_THAT(lead(), Not(HasSubstr("wrong place")));
+  EXPECT_THAT(lead(), Not(HasSubstr("the position was wrong")));
   for (std::size_t i : {5U, 20U, 21U}) {
     const LocalFrame here(run.drive.frames[i].position);
     run.found[i].fix.position = here.geo_from_enu({50, 0, 0});
   }
-  EXPECT_THAT(lead(),
-              HasSubstr("In 2 frames it was taken to be in a wrong place, more than 10 m off."));
+  EXPECT_THAT(lead(), HasSubstr("In 2 frames the position was wrong by more than 10 m."));
 }
 
 TEST(FindReportData, IsTheSameEachTime) {
@@ -85,7 +83,7 @@ TEST(FindReportData, WithoutRecordedPositionsNoErrorIsToldOrDrawn) {
 
 TEST(FindReportData, EveryFrameHasItsValues) {
   FoundRun run(40, 10);
-  run.found[20].fix.explained = 0.75;
+  run.found[20].fix.inlier_ratio = 0.75;
   const Json page = find_report_data(run.input());
   const Json& columns = page["columns"];
   EXPECT_EQ(columns["frame"][20], "frame20.jpg");
@@ -120,7 +118,7 @@ TEST(FindReportData, ABackdropIsHeldOnceInMetresEastAndNorth) {
 TEST(FindReportData, OfABackdropOnlyWhatPlansShowIsInThePage) {
   const FoundRun run(20, 5);
   FindReportInput input = run.input();
-  // A town of 20 by 20 km about the walls, and one beside them.
+  // An image of 20 by 20 km around the walls, and one next to them.
   const cv::Mat town(2000, 2000, CV_8UC3, cv::Scalar(90, 90, 90));
   input.backdrop = Backdrop{town, {1e-4, 0, 0, -1e-4, 8.3, 49.1}};
   EXPECT_TRUE(find_report_data(input).contains("ground"));
@@ -153,11 +151,11 @@ TEST(SnapshotFigures, ShowEveryParticleOfAnAreaWithItsHeading) {
   Drawn drawn(run);
   drawn.series.snapshots[0].particles[0].heading_rad = std::numbers::pi / 2;
   drawn.series.snapshots[0].particles[1].heading_rad = 0;
-  const std::vector<Json> dots = layers_of(drawn.snapshot(0), "dots", "particle, with its heading");
+  const std::vector<Json> dots = layers_of(drawn.snapshot(0), "dots", "particle with its heading");
   ASSERT_EQ(dots.size(), 2U);
   EXPECT_EQ(dots[0]["marker"], "dash");
   EXPECT_EQ(dots[0]["x"].size(), 200U);
-  EXPECT_EQ(dots[0]["rotation_deg"][0], 0);    // to the east, as the dash is drawn
+  EXPECT_EQ(dots[0]["rotation_deg"][0], 0);    // to the east, like the unrotated dash
   EXPECT_EQ(dots[0]["rotation_deg"][1], -90);  // to the north
   EXPECT_EQ(dots[1]["x"], dots[0]["x"]);
 }
@@ -167,7 +165,7 @@ TEST(SnapshotFigures, ShowACloseUpOfAGatheredBeliefOnly) {
   Drawn drawn(run);
   EXPECT_THAT(snapshot_figures(drawn.series)[2].caption, HasSubstr("The whole area"));
   const PlanPoint at = drawn.series.found[drawn.series.snapshots[2].frame];
-  std::vector<PlanPose>& particles = drawn.series.snapshots[2].particles;
+  std::vector<Pose2>& particles = drawn.series.snapshots[2].particles;
   for (std::size_t k = 0; k < 195; ++k) particles[k].enu_m = {at.x, at.y};
   for (std::size_t k = 195; k < 200; ++k) particles[k].enu_m = {at.x + 50, at.y};
   EXPECT_THAT(snapshot_figures(drawn.series)[2].caption, HasSubstr("Close-up"));
@@ -204,8 +202,8 @@ TEST(SnapshotFigures, PathsGoAsFarAsTheVehicle) {
 
 TEST(PathFigure, HasADotPerFrameByStatusAndTheSnapshotsNumbers) {
   FoundRun run(40, 10);
-  run.found[20].fix.status = FindStatus::predicted;
-  run.found[21].fix.status = FindStatus::lost;
+  run.found[20].fix.status = GlobalStatus::predicted;
+  run.found[21].fix.status = GlobalStatus::lost;
   const Drawn drawn(run);
   const Json figure = json_of(path_figure(drawn.series));
   const auto count = [&](const char* name) {

@@ -1,4 +1,4 @@
-// Finding one's way in a report's data.
+// Accessors of a report's data.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace milepost::testing {
 
-// The parts, with those of groups.
+// The parts, including those in groups.
 inline std::vector<Json> parts_of(const Json& page) {
   std::vector<Json> parts;
   for (const Json& part : page["parts"]) {
@@ -20,7 +20,7 @@ inline std::vector<Json> parts_of(const Json& page) {
   return parts;
 }
 
-// null where there is none.
+// null if there is none.
 inline Json part_of(const Json& page, const std::string& heading) {
   for (const Json& part : parts_of(page)) {
     if (part.value("heading", "") == heading) return part;
@@ -28,7 +28,7 @@ inline Json part_of(const Json& page, const std::string& heading) {
   return nullptr;
 }
 
-// Of a figure's first plot, the layers of a kind, and of a name where one is given.
+// The layers of a kind in a figure's first plot, optionally with a name.
 inline std::vector<Json> layers_of(const Json& figure, const std::string& kind,
                                    const std::optional<std::string>& name = std::nullopt) {
   std::vector<Json> layers;
@@ -40,7 +40,7 @@ inline std::vector<Json> layers_of(const Json& figure, const std::string& kind,
   return layers;
 }
 
-// A value, or what the page's columns hold under its name.
+// A value, or the column of the page with that name.
 inline Json column_of(const Json& page, const Json& reference) {
   return reference.is_string() ? page["columns"].at(reference.get<std::string>()) : reference;
 }

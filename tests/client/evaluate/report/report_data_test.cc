@@ -1,4 +1,4 @@
-// What the report of an evaluation holds: rows, marks, captions, columns and layers.
+// The contents of an evaluation report: rows, marks, captions, columns and layers.
 #include "client/evaluate/report/report_data.h"
 
 #include <gmock/gmock.h>
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "client/evaluate/report/report_numbers.h"
 #include "tests/client/evaluate/report/page_data.h"
 #include "tests/client/evaluate/report/report_input.h"
 
@@ -25,8 +26,6 @@ using testing::report_input;
 using testing::small_errors;
 using testing::straight_drive;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 Json data_of(const Drive& drive, const std::vector<MethodEvaluation>& methods) {
   return report_data(report_input(drive, methods));
 }
@@ -42,7 +41,7 @@ Json row_of(const Json& table, const std::string& method) {
   return nullptr;
 }
 
-// The headings whose cells are marked.
+// The headings of the marked cells.
 std::vector<std::string> marked(const Json& table, const std::string& method) {
   std::vector<std::string> headings;
   const Json row = row_of(table, method);
@@ -70,7 +69,7 @@ TEST(ReportData, MarksTheBestOfEachColumn) {
   MethodEvaluation far = evaluation("far", drive, small_errors(20, 0.2));
   far.summary.mean_error_m = 0.4;
   far.summary.std_error_m = kNaN;
-  near.summary.within_2_sigma = 1;  // 95 % is what two honest sigmas hold
+  near.summary.within_2_sigma = 1;  // 95 % is the nominal share
   far.summary.latency_ms_p50 = 40;
   const Json page = data_of(drive, {far, near});
   const Json table = part_of(page, "Summary");
@@ -86,7 +85,7 @@ TEST(ReportData, MethodsThatSayTheBestAlikeShareTheMark) {
   for (const char* name : {"light", "slim", "heavy"}) {
     methods.push_back(evaluation(name, drive, small_errors(20, 0.05)));
   }
-  methods[1].summary.map_kb_per_m += 0.001;  // which is not printed
+  methods[1].summary.map_kb_per_m += 0.001;  // less than the printed digits
   methods[2].summary.map_kb_per_m = 9;
   const Json table = part_of(data_of(drive, methods), "Summary");
   EXPECT_THAT(marked(table, "light"), ::testing::ElementsAre("map"));
@@ -107,7 +106,7 @@ TEST(ReportData, LateralOffsetAndHeadingAreOfTheMethodsThatKnowThem) {
   EXPECT_EQ(table["rows"].size(), 2U);
   EXPECT_EQ(row_of(table, "milepost")["cells"],
             Json::parse(R"(["milepost",0.028,0.084,0.124,67,0.29,0.85,1.23])"));
-  EXPECT_THAT(page["lead"].get<std::string>(), HasSubstr("lateral offset is off by 0.028\u00A0m"));
+  EXPECT_THAT(page["lead"].get<std::string>(), HasSubstr("lateral offset is 0.028\u00A0m"));
   const Json figure = part_of(page, "Error of the lateral offset");
   EXPECT_EQ(layers_of(figure, "line").size(), 2U);
   EXPECT_EQ(layers_of(figure, "band").size(), 1U);
@@ -176,7 +175,7 @@ TEST(ReportData, OutliersAreCountedInWordsAndDoNotStretchTheScale) {
 TEST(ReportData, WithoutOutliersSaysThatNoneIsLeftOut) {
   const Drive drive = straight_drive(100);
   const Json page = data_of(drive, {evaluation("milepost", drive, small_errors(100, 0.1))});
-  EXPECT_THAT(caption_of(page, "Errors by size"), HasSubstr("No error is left out."));
+  EXPECT_THAT(caption_of(page, "Errors by size"), HasSubstr("No error is omitted."));
   EXPECT_THAT(layers_of(part_of(page, "Errors by size"), "texts"), ::testing::IsEmpty());
 }
 
@@ -253,7 +252,7 @@ TEST(ReportData, PositionsThatAreNoneLeaveThePlanAsItIs) {
   drive.frames[51].position.latitude_deg = 200;
   EXPECT_EQ(axis_of(), before);
   for (Frame& frame : drive.frames) frame.position.latitude_deg = 200;
-  EXPECT_GT(axis_of()["max"].get<double>(), 80);  // the segment's line is left
+  EXPECT_GT(axis_of()["max"].get<double>(), 80);  // only the segment's line is left
 }
 
 TEST(ReportData, AMethodHasItsColourWhateverStandsBesideIt) {
@@ -283,10 +282,10 @@ TEST(ReportData, AMethodThatMatchesNothingIsNotAmongTheMatches) {
       part_of(data_of(drive, {of_images, evaluation("milepost", drive, small_errors(10, 0.1))}),
               "Matches per frame");
   EXPECT_EQ(layers_of(figure, "line").size(), 1U);
-  EXPECT_GE(figure["plots"][0]["y"]["max"].get<double>(), 30);  // the greatest is inside
+  EXPECT_GE(figure["plots"][0]["y"]["max"].get<double>(), 30);  // the largest is inside
 }
 
-// Inputs at the edge of having something to draw.
+// Inputs with hardly anything to draw.
 struct EdgeCase {
   const char* name;
   std::vector<double> errors_m;

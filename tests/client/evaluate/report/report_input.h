@@ -1,4 +1,4 @@
-// Evaluations to report on: an analytic drive, so that a test knows what must be drawn.
+// Evaluations for reports: an analytic drive, so that a test knows the expected drawing.
 #pragma once
 
 #include <string>
@@ -16,14 +16,14 @@ Drive straight_drive(std::size_t frames);
 MethodEvaluation evaluation(const std::string& method, const Drive& drive,
                             const std::vector<double>& errors_m);
 
-// Gives each fix a lateral, off by 0.4 times its error along, and a heading off by as many degrees.
-// The summary's numbers are plausible, not computed.
+// Adds to each fix a lateral offset with 0.4 times its arc length error, and a heading with an
+// error of as many degrees. The summary's numbers are plausible, not computed.
 void know_lateral(MethodEvaluation& method);
 
-// Small errors on both sides of zero, the same for each call.
+// Small errors of both signs, the same for each call.
 std::vector<double> small_errors(std::size_t frames, double scale_m);
 
-// The drive must outlive the input.
+// REQUIRES: the drive outlives the input.
 ReportInput report_input(const Drive& drive, std::vector<MethodEvaluation> methods);
 
 }  // namespace milepost::testing

@@ -1,4 +1,4 @@
-// The page around a report's data: it holds everything, and texts stay texts.
+// The page of a report: it is self-contained, and strings stay strings.
 #include "client/evaluate/report/report_page.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,6 @@ using testing::report_input;
 using testing::small_errors;
 using testing::straight_drive;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string embedded(const std::string& page) {

@@ -1,6 +1,6 @@
-// A program that has only the installed library: it asks a server that is not there where it is,
-// and must be told so; and refuses what is wrong or not supported.
-#include <milepost/finder.h>
+// A program with only the installed library: it requests its position from a server that does not
+// exist, and must get an error; and it checks that wrong and unsupported input is rejected.
+#include <milepost/global_localizer.h>
 #include <milepost/localizer.h>
 
 #include <cstdint>
@@ -27,7 +27,7 @@ vehicle::Camera camera() {
 
 vehicle::ServerSource no_server(const std::string& work_directory) {
   vehicle::ServerSource server;
-  server.url = "http://127.0.0.1:1";  // port 1 is never the one of a tile server
+  server.url = "http://127.0.0.1:1";  // port 1 is never that of a tile server
   server.cache_directory = work_directory + "/cache";
   return server;
 }
@@ -43,7 +43,7 @@ bool is_told_that_the_server_is_not_there(const std::string& work_directory) {
   reading.longitude_deg = 8.4;
   reading.sigma_m = 5;
   if (!localizer->observe(reading)) return false;
-  if (!localizer->wait_for_map(0)) return false;  // asked for in vain
+  if (!localizer->wait_for_map(0)) return false;  // returns after the failed request
   const std::vector<std::uint8_t> dark(kSidePx * kSidePx, 0);
   vehicle::ImageView image;
   image.data = dark.data();
@@ -60,7 +60,7 @@ bool is_told_that_the_server_is_not_there(const std::string& work_directory) {
 }
 
 bool is_told_of_no_walls(const std::string& work_directory) {
-  const auto finder = vehicle::Finder::open(no_server(work_directory), camera());
+  const auto finder = vehicle::GlobalLocalizer::open(no_server(work_directory), camera());
   if (finder) return false;
   std::cout << finder.error().line() << "\n";
   return finder.error().code == vehicle::ErrorCode::unavailable;

@@ -1,0 +1,111 @@
+#include "client/localize/hypothesis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace milepost {
+namespace {
+
+constexpr double kMinLogOdds = -4;  // below which a hypothesis is dropped
+// Part of the best pose's matches from which another pose is an alternative.
+constexpr double kAlternativePart = 0.6;
+
+// Whether two hypotheses are the same position.
+bool is_same(const Hypothesis& a, const Hypothesis& b) {
+  return a.layer().key == b.layer().key &&
+         std::abs(a.tracker->position().along_m - b.tracker->position().along_m) < kSameHypothesisM;
+}
+
+// Merges equal hypotheses: keeps the pose with the most inliers, the highest odds and the highest
+// log Bayes factor of the frame.
+void merge_same(std::vector<Hypothesis>& hypotheses) {
+  std::ranges::stable_sort(hypotheses, std::greater<>(), &Hypothesis::matches);
+  std::vector<Hypothesis> merged;
+  for (Hypothesis& hypothesis : hypotheses) {
+    const auto same = std::ranges::find_if(
+        merged, [&](const Hypothesis& other) { return is_same(hypothesis, other); });
+    if (same == merged.end()) {
+      merged.push_back(std::move(hypothesis));
+      continue;
+    }
+    if (hypothesis.matches >= kAlternativePart * same->matches) {
+      const double apart_m = geodesic_distance_m(hypothesis.position(), same->position());
+      same->apart_m = std::max(same->apart_m, apart_m);
+    }
+    same->log_bayes_factor = std::max(same->log_bayes_factor, hypothesis.log_bayes_factor);
+    if (hypothesis.odds.log() > same->odds.log()) {
+      same->odds = hypothesis.odds;
+      same->receiver = hypothesis.receiver;
+    }
+  }
+  hypotheses = std::move(merged);
+}
+
+}  // namespace
+
+GeoPoint Hypothesis::position() const { return position_of(tracker->position(), layer().line); }
+
+bool Hypothesis::is_on_segment(double along_m) const {
+  return along_m >= -kEndMarginM && along_m <= layer().line.length_m() + kEndMarginM;
+}
+
+bool Hypothesis::is_near_end(double ahead_m) const {
+  return tracker->position().along_m + ahead_m > layer().line.length_m();
+}
+
+TrackingResult Hypothesis::advance(SharedFrame& frame) {
+  const double before_m = tracker->position().along_m;
+  TrackingResult result = tracker->track(frame);
+  timestamp_s = frame.timestamp_s();
+  measured = result.measured;
+  matches = result.matches;
+  log_bayes_factor = result.log_bayes_factor;
+  weighed = false;
+  apart_m = 0;
+  odds.move(tracker->position().along_m - before_m);
+  return result;
+}
+
+void Hypothesis::weigh(double best, const std::optional<GnssFix>& reading) {
+  weighed = true;
+  odds.add_frame(log_bayes_factor, best, tracker->position().along_m);
+  if (reading) odds.add(receiver.log_bayes_factor(*reading, position(), timestamp_s));
+}
+
+void weigh(std::vector<Hypothesis>& hypotheses, const std::optional<GnssFix>& reading,
+           std::size_t most) {
+  merge_same(hypotheses);
+  double best = 0;
+  for (const Hypothesis& hypothesis : hypotheses)
+    best = std::max(best, hypothesis.log_bayes_factor);
+  for (Hypothesis& hypothesis : hypotheses) {
+    if (!hypothesis.weighed) hypothesis.weigh(best, reading);
+  }
+  std::erase_if(hypotheses,
+                [](const Hypothesis& hypothesis) { return hypothesis.odds.log() < kMinLogOdds; });
+  std::ranges::stable_sort(hypotheses, std::greater<>(),
+                           [](const Hypothesis& hypothesis) { return hypothesis.odds.log(); });
+  if (hypotheses.size() > most)
+    hypotheses.erase(hypotheses.begin() + static_cast<std::ptrdiff_t>(most), hypotheses.end());
+}
+
+double log_odds_of_first(const std::vector<Hypothesis>& hypotheses) {
+  double against = 1;  // elsewhere
+  for (std::size_t i = 1; i < hypotheses.size(); ++i) against += std::exp(hypotheses[i].odds.log());
+  return hypotheses.front().odds.log() - std::log(against);
+}
+
+double log_density_after(const Hypothesis& left, const Hypothesis& hypothesis) {
+  constexpr double kAccelerationMps2 = 2;
+  if (left.layer().key != hypothesis.layer().key) return 0;
+  const double since_s = hypothesis.timestamp_s - left.timestamp_s;
+  const double off_m = hypothesis.tracker->position().along_m -
+                       left.tracker->pose_at(hypothesis.timestamp_s).along_m;
+  const double sigma_m =
+      0.5 + left.tracker->position().sigma_m + kAccelerationMps2 * since_s * since_s / 2;
+  const double sigmas = off_m / sigma_m;
+  return -sigmas * sigmas / 2;
+}
+
+}  // namespace milepost

@@ -1,0 +1,69 @@
+// Hypotheses of the camera's position, tested against each other and against "elsewhere": another
+// position on the map, or none.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "client/fetch/segment_layer.h"
+#include "client/localize/gnss_fix.h"
+#include "client/localize/gnss_likelihood.h"
+#include "client/localize/log_odds.h"
+#include "client/localize/segment_tracker.h"
+
+namespace milepost {
+
+inline constexpr double kEndMarginM = 5;  // tolerance beyond a segment's ends
+
+inline constexpr double kSameHypothesisM = 4;  // hypotheses closer than this are merged
+inline constexpr double kAgreedM = 0.5;        // ... and independently found poses agree
+
+// A segment under consideration.
+struct OpenSegment {
+  std::shared_ptr<const SegmentLayer> layer;
+  std::unique_ptr<Relocalizer> relocalizer;
+};
+
+// One hypothesis with its odds against "elsewhere".
+struct Hypothesis {
+  std::shared_ptr<OpenSegment> segment;
+  std::unique_ptr<SegmentTracker> tracker;
+  LogOdds odds;
+  GnssLikelihood receiver;
+  double timestamp_s = 0;       // of the last frame
+  bool measured = false;        // whether it was measured
+  double log_bayes_factor = 0;  // of the last frame
+  int matches = 0;
+  bool weighed = false;  // whether the last frame is included in the odds
+  // Distance to an independently found pose with about as many inliers in the last frame, in
+  // metres; 0 if there is none.
+  double apart_m = 0;
+
+  const SegmentLayer& layer() const { return *segment->layer; }
+  GeoPoint position() const;
+  bool is_on_segment(double along_m) const;
+  // Whether the segment ends within `ahead_m`.
+  bool is_near_end(double ahead_m) const;
+
+  // Tracks to the next frame.
+  TrackingResult advance(SharedFrame& frame);
+  // Updates the odds with the last frame and, if given, a GNSS fix. `best` is the highest log Bayes
+  // factor of the frame over all hypotheses.
+  void weigh(double best, const std::optional<GnssFix>& reading);
+};
+
+// Updates the odds of all hypotheses with the last frame and the GNSS fix. Equal hypotheses are
+// merged, unlikely ones and those beyond `most` are dropped; the most likely comes first.
+void weigh(std::vector<Hypothesis>& hypotheses, const std::optional<GnssFix>& reading,
+           std::size_t most);
+
+// The log odds of the first hypothesis against all others and elsewhere. REQUIRES: there is one.
+double log_odds_of_first(const std::vector<Hypothesis>& hypotheses);
+
+// The log-likelihood of a hypothesis given the motion since another one left its segment over the
+// end: the map may look the same there as beyond its end. 0 if they are on different segments.
+double log_density_after(const Hypothesis& left, const Hypothesis& hypothesis);
+
+}  // namespace milepost

@@ -1,0 +1,27 @@
+#include "client/localize/log_odds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace milepost {
+
+void LogOdds::move(double by_m) {
+  const double lapse = settings_.lapse * std::min(1.0, std::abs(by_m) / settings_.novel_m);
+  const double odds = std::exp(log_);
+  log_ = std::log(odds * (1 - lapse) / (1 + odds * lapse));
+}
+
+void LogOdds::add_frame(double log_bayes_factor, double best, double along_m) {
+  if (log_bayes_factor <= 0) {
+    log_ += std::max(log_bayes_factor, -settings_.max_against);
+    return;
+  }
+  const double novel =
+      seen_ ? std::min(1.0, std::abs(along_m - seen_from_m_) / settings_.novel_m) : 1.0;
+  log_ += std::min(novel * log_bayes_factor, settings_.max_for);
+  log_ -= std::min(novel * (best - log_bayes_factor), settings_.max_for);
+  seen_ = true;
+  seen_from_m_ = along_m;
+}
+
+}  // namespace milepost

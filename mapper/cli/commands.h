@@ -1,0 +1,12 @@
+// The subcommands of milepost-mapper.
+#pragma once
+
+#include "schema/command/command.h"
+
+namespace milepost {
+
+RunCommand add_build(CLI::App& app);
+RunCommand add_aerial(CLI::App& app);
+RunCommand add_export(CLI::App& app);
+
+}  // namespace milepost

@@ -1,0 +1,17 @@
+// Trains the codebook of a map (a PCA projection) on frames spread evenly over all of its road.
+#pragma once
+
+#include <vector>
+
+#include "mapper/pipeline/segment_plan.h"
+#include "mapper/pipeline/settings.h"
+#include "schema/feature/pca_projection.h"
+
+namespace milepost {
+
+// Errors: those of FrameReader::gray.
+Result<PcaProjection> sampled_codebook(const std::vector<Drive>& drives,
+                                       const std::vector<SegmentPlan>& plans,
+                                       const BuildSettings& settings, int jobs);
+
+}  // namespace milepost
