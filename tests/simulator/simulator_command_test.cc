@@ -109,7 +109,7 @@ TEST(SimulatorCommand, NamesWhatFailedInOneLine) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output,
               ::testing::MatchesRegex("milepost-simulator: /dev/null/x/street-map/frames: cannot "
-                                      "be made [^\n]*\n"));
+                                      "be created [^\n]*\n"));
 }
 
 }  // namespace
