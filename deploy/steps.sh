@@ -17,7 +17,8 @@ progress_in() {
   if [ -n "$ninja" ]; then
     echo "${ninja%/*} of ${ninja#*/}, "
   elif total=$(grep -m 1 -oE '[0-9]+ newly installed' "$1"); then
-    echo "$(grep -c '^Setting up ' "$1") of ${total%% *} packages, "
+    # Each package is unpacked, then set up.
+    echo "$(($(grep -cE '^(Unpacking|Setting up) ' "$1") / 2)) of ${total%% *} packages, "
   fi
 }
 

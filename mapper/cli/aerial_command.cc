@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kAerialDescription =
-    R"(Extracts the walls of buildings from aerial data into the layer walls of a map, by which a
-vehicle is localized globally without GNSS.
+    R"(Extracts the walls of buildings from aerial data into a map.
 
+A vehicle is localized by them without GNSS (milepost-client find).
 With --image an orthoimage of any projection that GDAL reads is processed; its pixels are
 of at most 1.2 m on the ground, its corners within 100 km of the middle. Edges are detected at
 several thresholds, without the borders of shadows on the ground and without

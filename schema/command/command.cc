@@ -41,6 +41,12 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
+  std::string make_description(const CLI::App* app) const override {
+    const std::string description = CLI::Formatter::make_description(app);
+    return app->get_name().empty() ? description
+                                   : description + "\n";  // option groups have no name
+  }
+
   std::string make_subcommand(const CLI::App* sub) const override {
     constexpr std::size_t kNameWidth = 14;
     const std::string description = sub->get_description();
@@ -131,6 +137,7 @@ int run_program(const std::string& program, const std::string& description,
   for (const Command& command : commands) {
     CLI::App* sub = app.add_subcommand(command.name)->group("Commands");
     set_up(*sub);
+    sub->footer("");
     // CLI11 reads the configuration file of a program, not of a subcommand: it is passed on.
     const auto pass_on = [config](const std::string& file) { config->add_result(file); };
     sub->add_option_function<std::string>(kConfig, pass_on, kConfigText)

@@ -14,6 +14,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 struct Called {
   int code = 0;
@@ -88,7 +89,8 @@ TEST_F(ProgramTest, TheHelpOfACommandHasItsOptions) {
   EXPECT_EQ(called.code, kExitDone);
   EXPECT_THAT(called.output,
               AllOf(HasSubstr("Up to a number."), HasSubstr("Usage: milepost-test count"),
-                    HasSubstr("--number N"), HasSubstr("--name NAME"), HasSubstr("--config FILE")));
+                    HasSubstr("--number N"), HasSubstr("--name NAME"), HasSubstr("--config FILE"),
+                    Not(HasSubstr("COMMAND --help"))));
 }
 
 TEST_F(ProgramTest, TellsTheVersion) {
