@@ -1,9 +1,12 @@
 // The localizer with landmarks, on a road with known landmarks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <thread>
 
 #include "client/localize/localizer.h"
 #include "tests/client/localize/landmark_road.h"
@@ -76,6 +79,20 @@ class TrackingByLandmarks : public ::testing::Test {
     EXPECT_LT(fix.sigma_m, 0.1);
     EXPECT_LT(*fix.lateral_sigma_m, 0.1);
     EXPECT_GE(fix.matches, 20);
+  }
+
+  // Waits for the retries of all tiles whose request failed. False if that takes half a minute.
+  bool waits_until_nothing_is_missing() {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    const auto is_complete = [&] {
+      const auto held = localizer_.provider().held();
+      return std::ranges::all_of(
+          held->segments, [](const auto& segment) { return segment.second->missing.empty(); });
+    };
+    while (!is_complete() && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return is_complete();
   }
 
   // Tracks from frame to frame, from `from_m` to before `to_m`.
@@ -261,7 +278,7 @@ TEST_F(TrackingByLandmarks, DrivesOnWhileTheSourceFails) {
   ASSERT_TRUE(localizer_.last_error());
   EXPECT_EQ(localizer_.last_error()->code, ErrorCode::unavailable);
   map_->be_unavailable(false);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // until the source is asked again
+  ASSERT_TRUE(waits_until_nothing_is_missing());
   expect_tracked_between(along_m, along_m + 10);
 }
 
