@@ -1,5 +1,8 @@
-find_package(GTest QUIET)
-option(MILEPOST_TESTS "Build the tests (default: if GoogleTest is installed)" ${GTest_FOUND})
+# MILEPOST_TESTS: build the tests. Not cached unless it is given, so that the default follows what is installed.
+if(NOT DEFINED MILEPOST_TESTS)
+  find_package(GTest QUIET)
+  set(MILEPOST_TESTS ${GTest_FOUND})
+endif()
 option(MILEPOST_BENCHMARKS "Build the benchmarks in tests/bench" ON)
 option(MILEPOST_WERROR "Treat warnings as errors" OFF)
 option(MILEPOST_FUZZ "Build the fuzz targets as libFuzzer programs (clang)" OFF)

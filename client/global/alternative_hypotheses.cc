@@ -53,7 +53,7 @@ void AlternativeHypotheses::move(const OdometryIncrement& motion, Random& random
   propagate(alternatives_, motion, kOdometryNoise, walls_, area_, Crossing::dropped, random);
 }
 
-void AlternativeHypotheses::hold(ParticleSet& belief, const Pose2& mode,
+void AlternativeHypotheses::test(ParticleSet& belief, const Pose2& mode,
                                  const WallObservation& observation,
                                  const MeasurementWindow& window, Random& random) {
   ParticleSet proposals = drawn(observation, random);
@@ -73,10 +73,10 @@ void AlternativeHypotheses::hold(ParticleSet& belief, const Pose2& mode,
     log_likelihood_ratio_ = std::ranges::max(log_likelihoods_of_belief) -
                             std::ranges::max(log_likelihoods_of_alternatives);
   }
-  const double log_likelihood_ratio =
-      update_weights(proposals, log_likelihoods(proposals, window)) -
-      update_weights(belief_sample, log_likelihoods_of_belief) - kBeliefAdvantage;
-  const double part = std::min(1 / (1 + std::exp(-log_likelihood_ratio)), kMaxPart);
+  const double proposals_ratio = update_weights(proposals, log_likelihoods(proposals, window)) -
+                                 update_weights(belief_sample, log_likelihoods_of_belief) -
+                                 kBeliefAdvantage;
+  const double part = std::min(1 / (1 + std::exp(-proposals_ratio)), kMaxPart);
   for (Particle& particle : belief) particle.weight *= 1 - part;
   for (Particle& proposal : proposals) {
     proposal.weight *= part;

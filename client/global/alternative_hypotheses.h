@@ -28,7 +28,7 @@ class AlternativeHypotheses {
   // measurement window. The proposals join the belief with the part of the probability that their
   // likelihood ratio gives them. REQUIRES: the belief and the observation's sections are not empty;
   // the window contains the observation.
-  void hold(ParticleSet& belief, const Pose2& mode, const WallObservation& observation,
+  void test(ParticleSet& belief, const Pose2& mode, const WallObservation& observation,
             const MeasurementWindow& window, Random& random);
 
   // The log-likelihood ratio over the window of the best particle of the belief to the best

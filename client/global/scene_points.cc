@@ -154,21 +154,21 @@ void ScenePointTracker::follow(const std::vector<Feature>& features,
   const Eigen::Isometry3d before_from_now = refined_motion(pairs, by_odometry, ray_sigma);
   first_from_camera_ = first_from_camera_ * before_from_now;
 
-  std::vector<Track> followed(features.size());
+  std::vector<Track> continued(features.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const double off_px = std::abs(epipolar_distance(pairs[i], before_from_now)) * view_.focal_px();
     if (off_px > kAgreesPx) continue;
-    followed[matches[i].feature].observations = std::move(tracks_[matches[i].track].observations);
+    continued[matches[i].feature].observations = std::move(tracks_[matches[i].track].observations);
   }
   for (std::size_t f = 0; f < features.size(); ++f) {
-    Track& track = followed[f];
+    Track& track = continued[f];
     track.last = features[f];
     track.observations.push_back({first_from_camera_.translation(),
                                   (first_from_camera_.linear() * features[f].ray).normalized()});
     if (track.observations.size() > kMaxSights)
       track.observations.erase(track.observations.begin());
   }
-  tracks_ = std::move(followed);
+  tracks_ = std::move(continued);
 }
 
 std::vector<ScenePoint> ScenePointTracker::triangulated() const {

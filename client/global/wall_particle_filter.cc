@@ -44,7 +44,7 @@ PlanEstimate WallParticleFilter::update(const WallObservation& observation,
               is_about_start ? Crossing::dropped : Crossing::drawn_anew, random_);
     alternatives_.move(motion, random_);
   }
-  const bool is_sight = window_.add(observation, motion);
+  const bool is_kept = window_.add(observation, motion);
   if (!is_started_ && !observation.beams.empty() && !observation.sections.empty()) {
     start_from(observation);
   } else {
@@ -55,8 +55,8 @@ PlanEstimate WallParticleFilter::update(const WallObservation& observation,
   const BeliefMode mode = densest_mode(particles_, {});
   const GlobalStatus status =
       monitor_.observe(mode, inlier_ratio_of(mode, observation), has_alternative(), motion);
-  if (is_sight && !observation.sections.empty() && is_tested()) {
-    alternatives_.hold(particles_, mode.pose, observation, window_, random_);
+  if (is_kept && !observation.sections.empty() && is_tested()) {
+    alternatives_.test(particles_, mode.pose, observation, window_, random_);
   }
   resample();
   return {status, mode, monitor_.inlier_ratio()};

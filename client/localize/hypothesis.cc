@@ -14,7 +14,7 @@ constexpr double kAlternativePart = 0.6;
 // Whether two hypotheses are the same position.
 bool is_same(const Hypothesis& a, const Hypothesis& b) {
   return a.layer().key == b.layer().key &&
-         std::abs(a.tracker->position().along_m - b.tracker->position().along_m) < kSameHypothesisM;
+         std::abs(a.tracker->pose().along_m - b.tracker->pose().along_m) < kSameHypothesisM;
 }
 
 // Merges equal hypotheses: keeps the pose with the most inliers, the highest odds and the highest
@@ -44,18 +44,18 @@ void merge_same(std::vector<Hypothesis>& hypotheses) {
 
 }  // namespace
 
-GeoPoint Hypothesis::position() const { return position_of(tracker->position(), layer().line); }
+GeoPoint Hypothesis::position() const { return position_of(tracker->pose(), layer().line); }
 
 bool Hypothesis::is_on_segment(double along_m) const {
   return along_m >= -kEndMarginM && along_m <= layer().line.length_m() + kEndMarginM;
 }
 
 bool Hypothesis::is_near_end(double ahead_m) const {
-  return tracker->position().along_m + ahead_m > layer().line.length_m();
+  return tracker->pose().along_m + ahead_m > layer().line.length_m();
 }
 
 TrackingResult Hypothesis::advance(SharedFrame& frame) {
-  const double before_m = tracker->position().along_m;
+  const double before_m = tracker->pose().along_m;
   TrackingResult result = tracker->track(frame);
   timestamp_s = frame.timestamp_s();
   measured = result.measured;
@@ -63,13 +63,13 @@ TrackingResult Hypothesis::advance(SharedFrame& frame) {
   log_bayes_factor = result.log_bayes_factor;
   weighed = false;
   apart_m = 0;
-  odds.move(tracker->position().along_m - before_m);
+  odds.move(tracker->pose().along_m - before_m);
   return result;
 }
 
 void Hypothesis::weigh(double best, const std::optional<GnssFix>& reading) {
   weighed = true;
-  odds.add_frame(log_bayes_factor, best, tracker->position().along_m);
+  odds.add_frame(log_bayes_factor, best, tracker->pose().along_m);
   if (reading) odds.add(receiver.log_bayes_factor(*reading, position(), timestamp_s));
 }
 
@@ -100,10 +100,10 @@ double log_density_after(const Hypothesis& left, const Hypothesis& hypothesis) {
   constexpr double kAccelerationMps2 = 2;
   if (left.layer().key != hypothesis.layer().key) return 0;
   const double since_s = hypothesis.timestamp_s - left.timestamp_s;
-  const double off_m = hypothesis.tracker->position().along_m -
-                       left.tracker->pose_at(hypothesis.timestamp_s).along_m;
+  const double off_m =
+      hypothesis.tracker->pose().along_m - left.tracker->pose_at(hypothesis.timestamp_s).along_m;
   const double sigma_m =
-      0.5 + left.tracker->position().sigma_m + kAccelerationMps2 * since_s * since_s / 2;
+      0.5 + left.tracker->pose().sigma_m + kAccelerationMps2 * since_s * since_s / 2;
   const double sigmas = off_m / sigma_m;
   return -sigmas * sigmas / 2;
 }

@@ -16,8 +16,8 @@ bool mapped_in(const LocalLandmark& landmark, const AlongRange& region, double m
 }
 
 // Saturates: with a very small quantization step of the map no int holds the square.
-int squared_steps(double distance, double codebook_step) {
-  return static_cast<int>(std::min<double>(kFar, std::pow(distance / codebook_step, 2)));
+int squared_steps(double distance, double quantization_step) {
+  return static_cast<int>(std::min<double>(kFar, std::pow(distance / quantization_step, 2)));
 }
 
 // Nearest neighbour and Lowe's ratio test against the nearest candidate at another place.
@@ -84,15 +84,15 @@ std::optional<SearchGate> search_gate(const LocalLandmark& landmark, const PoseB
 
 }  // namespace
 
-CompactFrame::CompactFrame(const FeatureSet& set, const PcaProjection& codebook)
+CompactFrame::CompactFrame(const FeatureSet& set, const PcaProjection& projection)
     : features(set.features), grid(set.features) {
   descriptors.reserve(set.size());
   for (const Descriptor& descriptor : set.descriptors) {
-    descriptors.push_back(codebook.compact(descriptor));
+    descriptors.push_back(projection.compact(descriptor));
   }
 }
 
-std::vector<LandmarkMatch> match_global(const CompactFrame& frame, double codebook_step,
+std::vector<LandmarkMatch> match_global(const CompactFrame& frame, double quantization_step,
                                         const std::vector<LocalLandmark>& landmarks,
                                         const AlongRange& region,
                                         const LandmarkMatchSettings& settings) {
@@ -100,7 +100,7 @@ std::vector<LandmarkMatch> match_global(const CompactFrame& frame, double codebo
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     if (mapped_in(landmarks[i], region, settings.along_margin_m)) mapped.push_back(i);
   }
-  const int max_squared = squared_steps(settings.max_distance, codebook_step);
+  const int max_squared = squared_steps(settings.max_distance, quantization_step);
   const auto same_place = [&](std::size_t a, std::size_t b) {
     return (landmarks[a].enu_m - landmarks[b].enu_m).norm() <= settings.same_place_m;
   };
@@ -117,7 +117,7 @@ std::vector<LandmarkMatch> match_global(const CompactFrame& frame, double codebo
   return matches;
 }
 
-std::vector<LandmarkMatch> match_guided(const CompactFrame& frame, double codebook_step,
+std::vector<LandmarkMatch> match_guided(const CompactFrame& frame, double quantization_step,
                                         const std::vector<LocalLandmark>& landmarks,
                                         const AlongRange& region, const PoseBelief& belief,
                                         const Pinhole& camera,
@@ -127,7 +127,7 @@ std::vector<LandmarkMatch> match_guided(const CompactFrame& frame, double codebo
     std::size_t landmark = 0;
   };
   std::vector<Claim> claims(frame.features.size());  // by feature: its nearest landmark
-  const int max_squared = squared_steps(settings.max_distance, codebook_step);
+  const int max_squared = squared_steps(settings.max_distance, quantization_step);
   constexpr double kSamePlacePx = 2;
   const auto same_place = [&](std::size_t a, std::size_t b) {
     return std::hypot(frame.features[a].x_px - frame.features[b].x_px,

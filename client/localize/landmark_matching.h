@@ -12,7 +12,7 @@ namespace milepost {
 
 // The features of one frame, prepared for matching.
 struct CompactFrame {
-  CompactFrame(const FeatureSet& set, const PcaProjection& codebook);
+  CompactFrame(const FeatureSet& set, const PcaProjection& projection);
 
   const std::vector<Feature>& features;
   std::vector<CompactDescriptor> descriptors;
@@ -32,14 +32,14 @@ struct LandmarkMatchSettings {
 };
 
 // Global matching: for each feature the nearest landmark mapped in `region`, by descriptors alone.
-std::vector<LandmarkMatch> match_global(const CompactFrame& frame, double codebook_step,
+std::vector<LandmarkMatch> match_global(const CompactFrame& frame, double quantization_step,
                                         const std::vector<LocalLandmark>& landmarks,
                                         const AlongRange& region,
                                         const LandmarkMatchSettings& settings);
 
 // Guided matching: for each landmark mapped in `region` the feature with the nearest descriptor in
 // the search gate predicted from a belief.
-std::vector<LandmarkMatch> match_guided(const CompactFrame& frame, double codebook_step,
+std::vector<LandmarkMatch> match_guided(const CompactFrame& frame, double quantization_step,
                                         const std::vector<LocalLandmark>& landmarks,
                                         const AlongRange& region, const PoseBelief& belief,
                                         const Pinhole& camera,

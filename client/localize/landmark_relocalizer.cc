@@ -43,8 +43,9 @@ class LandmarkRelocalizer : public Relocalizer {
   // other.
   std::vector<double> densest_along_m(const CompactFrame& frame, const AlongRange& around) const {
     const LandmarkMethod& method = search_.method;
-    const auto matches = match_global(frame, search_.layer->parameters().codebook->step(),
-                                      window_.landmarks(), around, method.match);
+    const auto matches =
+        match_global(frame, search_.layer->parameters().projection->quantization_step(),
+                     window_.landmarks(), around, method.match);
     std::vector<PositionEstimate> left =
         along_by_scale(matches, frame.features, window_.landmarks(), search_.camera.pinhole,
                        search_.layer->line, window_.frame(), method.solver.scale_sigma);

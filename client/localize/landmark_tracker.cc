@@ -96,7 +96,7 @@ void LandmarkTracker::measure(const CompactFrame& frame, const PoseBelief& befor
   }
 }
 
-TrackedPose LandmarkTracker::position() const { return tracked_pose(belief_); }
+TrackedPose LandmarkTracker::pose() const { return tracked_pose(belief_); }
 
 std::optional<LearnedCamera> LandmarkTracker::learned_camera() const {
   return LearnedCamera{belief_.x.segment<3>(kLogFocal),
@@ -134,9 +134,9 @@ std::optional<PoseEstimate> LandmarkTracker::track_landmarks(const CompactFrame&
                           method_.solver);
   PoseEstimate estimate{before, {}};
   for (int iteration = 0; iteration < 2; ++iteration) {
-    const auto matches =
-        match_guided(frame, search_.layer->parameters().codebook->step(), window_.landmarks(),
-                     region, estimate.belief, search_.camera.pinhole, method_.match);
+    const auto matches = match_guided(
+        frame, search_.layer->parameters().projection->quantization_step(), window_.landmarks(),
+        region, estimate.belief, search_.camera.pinhole, method_.match);
     estimate = solver.estimate(before, estimate.belief.x, matches);
     const auto agreeing = static_cast<double>(estimate.agreeing.size());
     if (agreeing < method_.min_support) return std::nullopt;
@@ -150,8 +150,9 @@ std::optional<PoseEstimate> LandmarkTracker::track_landmarks(const CompactFrame&
 std::optional<PoseEstimate> LandmarkTracker::relocalize(const CompactFrame& frame,
                                                         const PoseBelief& before,
                                                         const AlongRange& region) const {
-  const auto matches = match_global(frame, search_.layer->parameters().codebook->step(),
-                                    window_.landmarks(), region, method_.match);
+  const auto matches =
+      match_global(frame, search_.layer->parameters().projection->quantization_step(),
+                   window_.landmarks(), region, method_.match);
   const PoseSolver solver(search_.camera.pinhole, frame.features, window_.landmarks(),
                           method_.solver);
   const auto agreed = estimate_by_consensus(solver, before, matches, method_.consensus);
@@ -159,9 +160,9 @@ std::optional<PoseEstimate> LandmarkTracker::relocalize(const CompactFrame& fram
     return std::nullopt;
   PoseEstimate estimate = *agreed;
   for (int iteration = 0; iteration < kRelocalizationIterations; ++iteration) {
-    const auto again =
-        match_guided(frame, search_.layer->parameters().codebook->step(), window_.landmarks(),
-                     region, estimate.belief, search_.camera.pinhole, method_.match);
+    const auto again = match_guided(
+        frame, search_.layer->parameters().projection->quantization_step(), window_.landmarks(),
+        region, estimate.belief, search_.camera.pinhole, method_.match);
     estimate = solver.estimate(before, estimate.belief.x, again);
     if (static_cast<int>(estimate.agreeing.size()) < search_.min_start_support) return std::nullopt;
   }

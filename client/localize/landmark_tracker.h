@@ -22,7 +22,7 @@ struct LandmarkSearch {
   std::function<void(const TrackletEstimate&)> on_estimate;
 
   const CompactFrame& compact(SharedFrame& frame) const {
-    return frame.compact(layer->feature(), *layer->parameters().codebook);
+    return frame.compact(layer->feature(), *layer->parameters().projection);
   }
 };
 
@@ -43,7 +43,7 @@ class LandmarkTracker : public SegmentTracker {
   TrackedPose pose_at(double timestamp_s) const override;
   AlongRange needed(double timestamp_s) const override;
   TrackingResult track(SharedFrame& frame) override;
-  TrackedPose position() const override;
+  TrackedPose pose() const override;
   std::optional<LearnedCamera> learned_camera() const override;
 
  private:

@@ -98,7 +98,7 @@ Fix unlocated(double timestamp_s, FixStatus status) {
 
 Searching lost_from(const Hypothesis& hypothesis, double timestamp_s) {
   Searching lost{FixStatus::lost};
-  const double sigma_m = std::max(hypothesis.tracker->position().sigma_m, kElsewhereM);
+  const double sigma_m = std::max(hypothesis.tracker->pose().sigma_m, kElsewhereM);
   lost.lost_at = GnssFix{timestamp_s, hypothesis.position(), sigma_m};
   return lost;
 }
@@ -258,7 +258,7 @@ NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFi
                             true,
                             candidate.log_bayes_factor,
                             candidate.matches};
-      const double along_m = hypothesis.tracker->position().along_m;
+      const double along_m = hypothesis.tracker->pose().along_m;
       if (!hypothesis.is_on_segment(along_m)) continue;
       if (searching.left) hypothesis.odds.add(log_density_after(*searching.left, hypothesis));
       if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)
@@ -276,7 +276,7 @@ void Localizer::Impl::carry(Searching& searching, SharedFrame& frame) {
     const TrackingResult result = hypothesis.advance(frame);
     if (result.failure) last_error = result.failure;
     const bool is_gone = result.failure && result.failure->code == ErrorCode::gone;
-    const bool has_left = !hypothesis.is_on_segment(hypothesis.tracker->position().along_m);
+    const bool has_left = !hypothesis.is_on_segment(hypothesis.tracker->pose().along_m);
     if (has_left && searching.waiting == FixStatus::lost) searching.leave(std::move(hypothesis));
     return is_gone || has_left;
   };
@@ -330,7 +330,7 @@ void Localizer::Impl::claim(Hypothesis hypothesis) { state = Tracking{std::move(
 // Relocalizes and compares the poses, if that is due.
 void Localizer::Impl::check_by_relocalization(Tracking& tracking, SharedFrame& frame) const {
   Hypothesis& hypothesis = tracking.hypothesis;
-  const double along_m = hypothesis.tracker->position().along_m;
+  const double along_m = hypothesis.tracker->pose().along_m;
   if (!settings.method.relocalizes_while_tracking || !tracking.relocalization_check.is_due(along_m))
     return;
   const AlongRange around = AlongRange{along_m, along_m}.widened(kSameHypothesisM);
@@ -382,7 +382,7 @@ Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
 }
 
 Fix Localizer::Impl::located(const Hypothesis& hypothesis, FixStatus status) const {
-  Fix fix = located(hypothesis, hypothesis.tracker->position(), hypothesis.timestamp_s, status);
+  Fix fix = located(hypothesis, hypothesis.tracker->pose(), hypothesis.timestamp_s, status);
   fix.matches = hypothesis.measured ? hypothesis.matches : 0;
   return fix;
 }
@@ -448,7 +448,7 @@ Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
   const auto* tracking = std::get_if<Tracking>(&state);
   if (tracking) {
     want_place(tracking->hypothesis);
-    const double at_m = tracking->hypothesis.tracker->position().along_m;
+    const double at_m = tracking->hypothesis.tracker->pose().along_m;
     want(tracking->hypothesis.layer().key, {at_m, at_m + settings.prefetch_m}, kAhead);
     if (!around) around = GnssFix{timestamp_s, tracking->hypothesis.position(), 0};
   } else {

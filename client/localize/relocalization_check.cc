@@ -27,12 +27,12 @@ std::optional<LearnedCamera> RelocalizationCheck::camera(const Hypothesis& hypot
 void RelocalizationCheck::compare(Hypothesis& hypothesis,
                                   std::vector<RelocalizationCandidate> candidates) {
   ++looks_;
-  looked_from_m_ = hypothesis.tracker->position().along_m;
+  looked_from_m_ = hypothesis.tracker->pose().along_m;
   const auto most = std::ranges::max_element(candidates, {}, &RelocalizationCandidate::matches);
   const double apart_m =
       most == candidates.end()
           ? 0
-          : geodesic_distance_m(position_of(most->tracker->position(), hypothesis.layer().line),
+          : geodesic_distance_m(position_of(most->tracker->pose(), hypothesis.layer().line),
                                 hypothesis.position());
   const bool is_alternative = apart_m > kAgreedM && apart_m < kSameHypothesisM &&
                               most->matches > kUncertainPart * hypothesis.matches;

@@ -46,7 +46,7 @@ class SegmentTracker {
   virtual AlongRange needed(double timestamp_s) const = 0;
   // Tracks to the next frame. A measurement that contradicts the belief is not used.
   virtual TrackingResult track(SharedFrame& frame) = 0;
-  virtual TrackedPose position() const = 0;
+  virtual TrackedPose pose() const = 0;
   // None for methods that do not estimate it.
   virtual std::optional<LearnedCamera> learned_camera() const { return std::nullopt; }
 };

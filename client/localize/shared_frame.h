@@ -26,9 +26,10 @@ class SharedFrame {
 
   // The features with descriptors compacted by a map's codebook (a PCA projection with a
   // quantization step).
-  const CompactFrame& compact(const FeatureParameters& parameters, const PcaProjection& codebook) {
-    std::unique_ptr<CompactFrame>& made = compact_[&codebook];
-    if (!made) made = std::make_unique<CompactFrame>(features(parameters), codebook);
+  const CompactFrame& compact(const FeatureParameters& parameters,
+                              const PcaProjection& projection) {
+    std::unique_ptr<CompactFrame>& made = compact_[&projection];
+    if (!made) made = std::make_unique<CompactFrame>(features(parameters), projection);
     return *made;
   }
 

@@ -26,12 +26,12 @@ struct NamedBuilder {
 // Builds the tiles of one segment from its frames.
 class SegmentBuilder {
  public:
-  SegmentBuilder(const Drive& drive, const SegmentPlan& plan, const PcaProjection& codebook,
+  SegmentBuilder(const Drive& drive, const SegmentPlan& plan, const PcaProjection& projection,
                  const BuildSettings& settings)
       : drive_(drive),
         plan_(plan),
         settings_(settings),
-        context_{plan.id, drive.camera, plan.line, codebook, settings.tile_length_m},
+        context_{plan.id, drive.camera, plan.line, projection, settings.tile_length_m},
         tracker_(settings.follow, drive.camera.width_px) {
     for (const Layer& layer : layers_of(settings)) {
       layers_.push_back({layer.name, make_layer_builder(layer, context_)});
@@ -144,23 +144,24 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     if (!checked.ok()) return checked.error();
   }
 
-  const Result<PcaProjection> codebook = sampled_codebook(drives, plans, settings, jobs);
-  if (!codebook) return codebook.error();
+  const Result<PcaProjection> projection = trained_projection(drives, plans, settings, jobs);
+  if (!projection) return projection.error();
   Result<MapWriter> map = MapWriter::create(map_file);
   if (!map) return map.error();
   Status status = map->set_feature_json(to_json(settings.feature).dump());
   for (const Layer& layer : layers_of(settings)) {
     if (status.ok())
-      status = map->add_layer(layer.name, to_json(parameters_of(layer, drives.front().camera,
-                                                                *codebook, settings.tile_length_m))
-                                              .dump());
+      status = map->add_layer(
+          layer.name,
+          to_json(parameters_of(layer, drives.front().camera, *projection, settings.tile_length_m))
+              .dump());
   }
   BuildReport report;
   for (std::size_t i = 0; i < plans.size() && status.ok(); ++i) {
     report.drives.push_back({.folder = drives[i].folder.string()});
     status = map->add_segment(stored_segment(plans[i]));
     if (status.ok()) {
-      status = SegmentBuilder(drives[i], plans[i], *codebook, settings)
+      status = SegmentBuilder(drives[i], plans[i], *projection, settings)
                    .run(jobs, *map, report, progress, on_progress);
     }
     if (status.ok() && report.drives.back().tracklets == 0 && !settings.allow_empty) {

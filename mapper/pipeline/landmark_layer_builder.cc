@@ -99,7 +99,7 @@ LandmarkTile LandmarkLayerBuilder::packed(std::uint32_t index,
     Landmark landmark;
     landmark.position = local.enu_from_geo(mapped.position);
     if (!within_reach(landmark.position)) continue;
-    landmark.descriptor = context_.codebook.compact(mapped.descriptor);
+    landmark.descriptor = context_.projection.compact(mapped.descriptor);
     landmark.depth_sigma_m = static_cast<float>(mapped.depth_sigma_m);
     landmark.size_m = static_cast<float>(mapped.size_m);
     landmark.size_sigma = static_cast<float>(std::min(mapped.size_sigma, 1.0));

@@ -46,7 +46,7 @@ struct SegmentContext {
   std::string segment;
   Camera camera;
   const RouteLine& line;
-  const PcaProjection& codebook;
+  const PcaProjection& projection;
   double tile_length_m = 0;
 };
 

@@ -19,13 +19,13 @@ std::vector<Layer> layers_of(const BuildSettings& settings) {
 }
 
 LayerParameters parameters_of(const Layer& layer, const Camera& camera,
-                              const PcaProjection& codebook, double tile_length_m) {
+                              const PcaProjection& projection, double tile_length_m) {
   LayerParameters parameters;
   parameters.items = layer.items;
   parameters.tile_length_m = tile_length_m;
   parameters.focal_x_px = camera.pinhole.focal_x_px;
   parameters.focal_y_px = camera.pinhole.focal_y_px;
-  if (layer.items == LayerItems::landmarks) parameters.codebook = codebook;
+  if (layer.items == LayerItems::landmarks) parameters.projection = projection;
   parameters.model = layer.regression.model;
   parameters.min_r_squared = layer.regression.min_r_squared;
   return parameters;

@@ -33,6 +33,6 @@ std::vector<Layer> layers_of(const BuildSettings& settings);
 
 // The parameters of the layer that the map stores.
 LayerParameters parameters_of(const Layer& layer, const Camera& camera,
-                              const PcaProjection& codebook, double tile_length_m);
+                              const PcaProjection& projection, double tile_length_m);
 
 }  // namespace milepost

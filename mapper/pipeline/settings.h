@@ -19,7 +19,7 @@ struct BuildSettings {
   FeatureTrackingSettings follow;
   double min_r_squared = 0.8;  // section 4.1.1, of the tracklets of --lab layers
   LandmarkLayerSettings landmarks;
-  double codebook_step = 0.02;  // quantization step of compact descriptors
+  double quantization_step = 0.02;  // quantization step of compact descriptors
   double tile_length_m = 20;
   double min_frame_spacing_m = 0.3;  // frames nearer to the last one used are skipped
   bool lab = false;                  // also build the layers of the other methods

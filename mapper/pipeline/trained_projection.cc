@@ -11,9 +11,9 @@ constexpr std::size_t kSampledFrames = 16;  // some thousand descriptors for 128
 
 }  // namespace
 
-Result<PcaProjection> sampled_codebook(const std::vector<Drive>& drives,
-                                       const std::vector<SegmentPlan>& plans,
-                                       const BuildSettings& settings, int jobs) {
+Result<PcaProjection> trained_projection(const std::vector<Drive>& drives,
+                                         const std::vector<SegmentPlan>& plans,
+                                         const BuildSettings& settings, int jobs) {
   std::size_t total = 0;
   for (const SegmentPlan& plan : plans) total += plan.frame_indices.size();
   const std::size_t every = std::max<std::size_t>(1, total / kSampledFrames);
@@ -33,7 +33,7 @@ Result<PcaProjection> sampled_codebook(const std::vector<Drive>& drives,
       descriptors.insert(descriptors.end(), of_frame.begin(), of_frame.end());
     }
   }
-  return PcaProjection::trained(descriptors, settings.codebook_step);
+  return PcaProjection::trained(descriptors, settings.quantization_step);
 }
 
 }  // namespace milepost

@@ -10,8 +10,8 @@
 namespace milepost {
 
 // Errors: those of FrameReader::gray.
-Result<PcaProjection> sampled_codebook(const std::vector<Drive>& drives,
-                                       const std::vector<SegmentPlan>& plans,
-                                       const BuildSettings& settings, int jobs);
+Result<PcaProjection> trained_projection(const std::vector<Drive>& drives,
+                                         const std::vector<SegmentPlan>& plans,
+                                         const BuildSettings& settings, int jobs);
 
 }  // namespace milepost

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <sstream>
+#include <string_view>
 
 #include "schema/command/version.h"
 
@@ -95,7 +96,11 @@ std::string what_is_wrong(const CLI::App& called, const CLI::ParseError& error) 
   }
   std::string what = error.what();
   std::replace(what.begin(), what.end(), '\n', ' ');
-  return what;
+  constexpr std::string_view kUnknownKey =
+      "INI was not able to parse ";  // CLI11; COMMAND.KEY follows
+  if (!what.starts_with(kUnknownKey)) return what;
+  return "--config: the file has the unknown key '" + what.substr(what.find_last_of(" .") + 1) +
+         "'";
 }
 
 int wrong_call(const CLI::App& app, const CLI::ParseError& error) {

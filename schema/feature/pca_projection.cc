@@ -73,7 +73,7 @@ CompactDescriptor PcaProjection::compact(const Descriptor& descriptor) const {
         static_cast<std::int16_t>(root[d] - mean_[d] * (kRootSiftUnits / kMeanUnits));
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += centred * axes_[d][k];
   }
-  const double units_a_step = step_ * kAxisUnits * kRootSiftUnits;
+  const double units_a_step = quantization_step_ * kAxisUnits * kRootSiftUnits;
   CompactDescriptor compact;
   std::transform(sums.begin(), sums.end(), compact.begin(), [units_a_step](std::int32_t sum) {
     const double steps = std::nearbyint(sum / units_a_step);
@@ -83,7 +83,7 @@ CompactDescriptor PcaProjection::compact(const Descriptor& descriptor) const {
 }
 
 nlohmann::ordered_json PcaProjection::to_json() const {
-  return {{"step", step_}, {"mean", base64_from(mean_)}, {"axes", base64_from(axes_)}};
+  return {{"step", quantization_step_}, {"mean", base64_from(mean_)}, {"axes", base64_from(axes_)}};
 }
 
 Result<PcaProjection> PcaProjection::from_json(nlohmann::json object) {
@@ -92,23 +92,23 @@ Result<PcaProjection> PcaProjection::from_json(nlohmann::json object) {
   if (step == object.end() || !step->is_number()) {
     return corrupt_codebook("'step' is missing or not a number");
   }
-  PcaProjection codebook;
-  codebook.step_ = step->get<double>();
-  if (!(codebook.step_ > 0 && std::isfinite(codebook.step_))) {
+  PcaProjection projection;
+  projection.quantization_step_ = step->get<double>();
+  if (!(projection.quantization_step_ > 0 && std::isfinite(projection.quantization_step_))) {
     return corrupt_codebook("'step' is not finite and above 0");
   }
   object.erase(step);
   for (const Status& status :
-       {take(object, "mean", codebook.mean_), take(object, "axes", codebook.axes_)}) {
+       {take(object, "mean", projection.mean_), take(object, "axes", projection.axes_)}) {
     if (!status.ok()) return status.error();
   }
-  for (const auto& components : codebook.axes_) {
+  for (const auto& components : projection.axes_) {
     if (std::ranges::find(components, INT8_MIN) != components.end()) {
       return corrupt_codebook("a component of 'axes' is below -127");
     }
   }
   if (!object.empty()) return corrupt_codebook("'" + object.begin().key() + "' is unknown");
-  return codebook;
+  return projection;
 }
 
 }  // namespace milepost

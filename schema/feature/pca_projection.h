@@ -27,12 +27,12 @@ int distance_squared(const CompactDescriptor& a, const CompactDescriptor& b);
 // Immutable after construction, so safe to share between threads.
 class PcaProjection {
  public:
-  // The principal axes of the descriptors' RootSIFT, which has length 1. `step` is the quantization
-  // step of every axis: the same for all, so that axes of little variance cost few bits once the
+  // The principal axes of the descriptors' RootSIFT, which has length 1. All axes
+  // have the same quantization step, so that axes of little variance cost few bits once the
   // tile is compressed. The same descriptors in the same order give the same codebook.
-  // REQUIRES: step > 0. Axes without variance (too few descriptors) are zero. Defined in
-  // milepost::feature (Eigen); the rest is in milepost::feature_types.
-  static PcaProjection trained(std::span<const Descriptor> descriptors, double step);
+  // REQUIRES: quantization_step > 0. Axes without variance (too few descriptors) are zero. Defined
+  // in milepost::feature (Eigen); the rest is in milepost::feature_types.
+  static PcaProjection trained(std::span<const Descriptor> descriptors, double quantization_step);
 
   // A JSON object; from_json(to_json()) gives a bit-identical codebook.
   // Errors: corrupt (a missing key, a wrong length, a value out of range).
@@ -41,14 +41,14 @@ class PcaProjection {
 
   // Saturates coordinates to 8 bits. Integer arithmetic: the same result on every machine.
   CompactDescriptor compact(const Descriptor& descriptor) const;
-  double step() const { return step_; }
+  double quantization_step() const { return quantization_step_; }
 
   friend bool operator==(const PcaProjection&, const PcaProjection&) = default;
 
  private:
   PcaProjection() = default;
 
-  double step_ = 0;
+  double quantization_step_ = 0;
   std::array<std::uint8_t, kDescriptorBytes> mean_{};  // of RootSIFT, in 1/255
   // In 1/127: for each value of a descriptor its component of every axis.
   std::array<std::array<std::int8_t, kCompactValues>, kDescriptorBytes> axes_{};

@@ -11,8 +11,8 @@ Error corrupt(const std::string& what) { return {ErrorCode::corrupt, "", what, "
 
 nlohmann::ordered_json to_json(const LayerParameters& parameters) {
   nlohmann::ordered_json json = {{"items", name_of(parameters.items)}};
-  if (parameters.codebook) {
-    json["codebook"] = parameters.codebook->to_json();
+  if (parameters.projection) {
+    json["codebook"] = parameters.projection->to_json();
   } else if (parameters.items != LayerItems::frames) {
     json["model"] = parameters.model == ScaleModel::scale ? "scale" : "inverse-scale";
     json["min_r_squared"] = parameters.min_r_squared;
@@ -65,10 +65,10 @@ Result<LayerParameters> layer_parameters_from_json(const nlohmann::json& json) {
   const double focal_px = parameters.focal_px();
   if (!(focal_px > 0 && std::isfinite(focal_px))) return corrupt("focal_px is out of range");
   if (*items == LayerItems::landmarks) {
-    const Result<PcaProjection> codebook =
+    const Result<PcaProjection> projection =
         PcaProjection::from_json(json.value("codebook", nlohmann::json()));
-    if (!codebook) return corrupt("its codebook: " + codebook.error().what);
-    parameters.codebook = *codebook;
+    if (!projection) return corrupt("its codebook: " + projection.error().what);
+    parameters.projection = *projection;
   }
   return parameters;
 }

@@ -37,7 +37,7 @@ struct LayerParameters {
   // lengths before they are compared.
   double focal_x_px = 0;
   double focal_y_px = 0;
-  std::optional<PcaProjection> codebook = {};    // of landmarks
+  std::optional<PcaProjection> projection = {};  // of landmarks
   ScaleModel model = ScaleModel::inverse_scale;  // of tracklets, with or without their observations
   double min_r_squared = 0;                      // ... likewise
 

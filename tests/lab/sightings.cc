@@ -37,7 +37,7 @@ Status relocalize_along(Relocalizer& relocalizer, const RouteLine& line, const s
         relocalizer.relocalize(frame, AlongRange{along_m, along_m}.widened(kReachM), std::nullopt);
     if (found.failure) return *found.failure;
     for (const RelocalizationCandidate& candidate : found.candidates) {
-      const TrackedPose at = candidate.tracker->position();
+      const TrackedPose at = candidate.tracker->pose();
       const GeoPoint place = position_of(at, line);
       const LineProjection beside = line.project(place);
       const double up_m = place.altitude_m - line.point_at(beside.along_m).altitude_m;

@@ -80,9 +80,9 @@ TEST(BuildMap, TheDefaultMapHoldsLandmarksAndTheirCodebook) {
   EXPECT_EQ(parameters.at("items"), "landmarks");
   EXPECT_EQ(parameters.at("tile_length_m"), 20);
   EXPECT_EQ(parameters.at("focal_px"), json({178.75, 200.05}));
-  const Result<PcaProjection> codebook = PcaProjection::from_json(parameters.at("codebook"));
-  ASSERT_TRUE(codebook.ok()) << codebook.error().line();
-  EXPECT_EQ(codebook->step(), BuildSettings{}.codebook_step);
+  const Result<PcaProjection> projection = PcaProjection::from_json(parameters.at("codebook"));
+  ASSERT_TRUE(projection.ok()) << projection.error().line();
+  EXPECT_EQ(projection->quantization_step(), BuildSettings{}.quantization_step);
   EXPECT_FALSE(parameters.contains("model"));
 }
 

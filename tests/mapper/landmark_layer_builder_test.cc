@@ -26,7 +26,7 @@ struct MadeLayer {
   std::vector<StoredTile> tiles;
 };
 
-PcaProjection codebook() {
+PcaProjection projection() {
   std::vector<Descriptor> descriptors;
   for (std::size_t i = 0; i < 1000; ++i) descriptors.push_back(testing::descriptor_of(i));
   return PcaProjection::trained(descriptors, 0.02);
@@ -43,7 +43,7 @@ MadeLayer layer_of(double size_target_kb_per_m) {
   std::vector<GeoPoint> vertices;
   for (std::size_t i = 0; i < kFrames; ++i) vertices.push_back(street.frame(i).position);
   const RouteLine line = RouteLine::from_vertices(std::move(vertices)).value();
-  const PcaProjection compact = codebook();
+  const PcaProjection compact = projection();
   const SegmentContext context{"s", kStreetCamera, line, compact, kTileLengthM};
   LandmarkLayerSettings settings;
   settings.size_target_kb_per_m = size_target_kb_per_m;

@@ -33,8 +33,8 @@ RouteLine straight_line() {
 // A segment `s` in tiles of 20 m.
 std::unique_ptr<LayerBuilder> builder_of(const Layer& layer) {
   static const RouteLine line = straight_line();
-  static const PcaProjection codebook = PcaProjection::trained({}, 0.02);
-  static const SegmentContext context{"s", {}, line, codebook, 20};
+  static const PcaProjection projection = PcaProjection::trained({}, 0.02);
+  static const SegmentContext context{"s", {}, line, projection, 20};
   return make_layer_builder(layer, context);
 }
 

@@ -46,7 +46,7 @@ std::vector<SegmentPlan> plans_of(const std::vector<Drive>& drives) {
 }
 
 Result<PcaProjection> codebook_of(const std::vector<Drive>& drives) {
-  return sampled_codebook(drives, plans_of(drives), {}, 2);
+  return trained_projection(drives, plans_of(drives), {}, 2);
 }
 
 // The frames that the codebook is trained on: those that must exist.
@@ -81,10 +81,10 @@ TEST(SampledCodebook, TakesAllOfFewFrames) {
   const TempFolder folder;
   const std::vector<Drive> drives = {noise_drive(folder.path(), "a", 3, 1)};
   EXPECT_EQ(sampled_of(drives, drives[0]).size(), 3U);
-  const Result<PcaProjection> codebook = codebook_of(drives);
-  ASSERT_TRUE(codebook.ok());
-  EXPECT_EQ(codebook->step(), BuildSettings{}.codebook_step);
-  EXPECT_TRUE(*codebook == *codebook_of(drives));
+  const Result<PcaProjection> projection = codebook_of(drives);
+  ASSERT_TRUE(projection.ok());
+  EXPECT_EQ(projection->quantization_step(), BuildSettings{}.quantization_step);
+  EXPECT_TRUE(*projection == *codebook_of(drives));
 }
 
 TEST(SampledCodebook, DependsOnEveryDrive) {

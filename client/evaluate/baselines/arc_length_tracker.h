@@ -27,7 +27,7 @@ class ArcLengthTracker {
   // Advances the belief to a frame and updates it with the measurement, if given. Returns whether
   // the measurement was used.
   virtual bool advance(double timestamp_s, const std::optional<Measurement>& measurement) = 0;
-  virtual TrackedPose position() const = 0;
+  virtual TrackedPose pose() const = 0;
 };
 
 // `none` uses each measurement alone; `kalman` is Eqs 9 to 11; `particle` is section 5.4.

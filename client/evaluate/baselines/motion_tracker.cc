@@ -48,7 +48,7 @@ class MotionTracker : public ArcLengthTracker {
     return true;
   }
 
-  TrackedPose position() const override { return position_of(belief_); }
+  TrackedPose pose() const override { return position_of(belief_); }
 
  private:
   bool believable(const MotionBelief& predicted, const Measurement& measurement) const {

@@ -61,7 +61,7 @@ class PaperTracker : public ArcLengthTracker {
     return is_measured;
   }
 
-  TrackedPose position() const override {
+  TrackedPose pose() const override {
     const AlongBelief belief = filter_->belief();
     return {belief.along_m, std::sqrt(belief.variance_m2)};
   }

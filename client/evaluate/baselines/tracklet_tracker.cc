@@ -59,7 +59,7 @@ class TrackletTracker : public SegmentTracker {
     return result;
   }
 
-  TrackedPose position() const override { return tracker_->position(); }
+  TrackedPose pose() const override { return tracker_->pose(); }
 
  private:
   std::vector<TrackletMatch> matches_in(SharedFrame& frame, const AlongRange& region) {

@@ -62,14 +62,14 @@ class WarpTracker : public SegmentTracker {
     if (!seen.compared) return std::nullopt;
     row_ = first_row(seen.costs);
     const double cost = best_end(row_).cost;
-    settle(frame.timestamp_s());
+    normalize_costs(frame.timestamp_s());
     return Begun{matches_at_best(seen), cost};
   }
 
   // Why tiles are missing that the latest frame needs.
   const std::optional<Error>& failure() const { return covered_.failure; }
 
-  TrackedPose pose_at(double /*timestamp_s*/) const override { return position(); }
+  TrackedPose pose_at(double /*timestamp_s*/) const override { return pose(); }
 
   AlongRange needed(double timestamp_s) const override {
     const double latest_m = best_end(row_).along_m;
@@ -83,7 +83,7 @@ class WarpTracker : public SegmentTracker {
       return {.log_bayes_factor = likelihood_.of_frame(false), .failure = covered_.failure};
     }
     row_ = std::move(next);
-    settle(frame.timestamp_s());
+    normalize_costs(frame.timestamp_s());
     return {.measured = true,
             .matches = matches_at_best(seen),
             .log_bayes_factor = likelihood_.of_frame(true),
@@ -92,7 +92,7 @@ class WarpTracker : public SegmentTracker {
 
   // The variance combines the spacing of the map's frames and the spread of the ends of paths that
   // are as good as the best within the variation of its cost from frame to frame.
-  TrackedPose position() const override {
+  TrackedPose pose() const override {
     const WarpCell& best = best_end(row_);
     const double variance = path_costs_.variance();
     double weights = 0;
@@ -143,7 +143,7 @@ class WarpTracker : public SegmentTracker {
 
   // Subtracts the best cost of the new row from the whole row, which changes no comparison and
   // keeps sums small.
-  void settle(double timestamp_s) {
+  void normalize_costs(double timestamp_s) {
     const double least = best_end(row_).cost;
     for (WarpCell& cell : row_) cell.cost -= least;
     path_costs_.add(least);

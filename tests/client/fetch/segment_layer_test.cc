@@ -18,14 +18,14 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const PcaProjection& codebook() {
+const PcaProjection& projection() {
   static const PcaProjection trained =
       PcaProjection::trained(testing::unlike_descriptors(8, 1), 0.01);
   return trained;
 }
 
 nlohmann::json sound_parameters() {
-  return {{"items", "landmarks"}, {"focal_px", {400, 900}}, {"codebook", codebook().to_json()}};
+  return {{"items", "landmarks"}, {"focal_px", {400, 900}}, {"codebook", projection().to_json()}};
 }
 
 Result<std::shared_ptr<const SegmentLayer>> read_layer(const nlohmann::json& parameters,
@@ -49,7 +49,7 @@ TEST(SegmentLayer, OfLandmarksHasACodebook) {
   const auto layer = read_layer(sound_parameters());
   ASSERT_TRUE(layer.ok()) << layer.error().line();
   EXPECT_EQ((*layer)->parameters().items, LayerItems::landmarks);
-  EXPECT_EQ((*layer)->parameters().codebook, codebook());
+  EXPECT_EQ((*layer)->parameters().projection, projection());
   EXPECT_EQ((*layer)->parameters().focal_px(), 600);
   EXPECT_NEAR((*layer)->line.length_m(), 111.2, 0.1);
 }
@@ -58,7 +58,7 @@ TEST(SegmentLayer, OfOtherItemsHasNone) {
   const auto layer = read_layer({{"items", "tracklets"}, {"focal_px", {400, 400}}});
   ASSERT_TRUE(layer.ok()) << layer.error().line();
   EXPECT_EQ((*layer)->parameters().items, LayerItems::tracklets);
-  EXPECT_FALSE((*layer)->parameters().codebook);
+  EXPECT_FALSE((*layer)->parameters().projection);
 }
 
 TEST(SegmentLayer, OfLandmarksWithoutASoundCodebookIsCorrupt) {

@@ -58,7 +58,7 @@ class AlternativeHypothesesTest : public ::testing::Test {
       const Pose2 believed = believed_at(truth_);
       if (window_.add(observation, motion) && is_held) {
         belief_ = belief_at(believed);
-        alternatives_->hold(belief_, believed, observation, window_, random_);
+        alternatives_->test(belief_, believed, observation, window_, random_);
       }
     }
   }

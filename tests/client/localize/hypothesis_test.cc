@@ -23,10 +23,10 @@ RouteLine northwards() {
 class Standing : public SegmentTracker {
  public:
   explicit Standing(double along_m) : along_m_(along_m) {}
-  TrackedPose pose_at(double) const override { return position(); }
+  TrackedPose pose_at(double) const override { return pose(); }
   AlongRange needed(double) const override { return {along_m_, along_m_}; }
   TrackingResult track(SharedFrame&) override { return {}; }
-  TrackedPose position() const override { return {along_m_, 0.1}; }
+  TrackedPose pose() const override { return {along_m_, 0.1}; }
   std::optional<LearnedCamera> learned_camera() const override {
     return LearnedCamera{{0.05, 0, 0}, Eigen::Matrix3d::Identity()};
   }
@@ -55,9 +55,7 @@ class Hypotheses : public ::testing::Test {
     return {std::make_unique<Standing>(along_m), matches, 5};
   }
 
-  static double along_m(const Hypothesis& hypothesis) {
-    return hypothesis.tracker->position().along_m;
-  }
+  static double along_m(const Hypothesis& hypothesis) { return hypothesis.tracker->pose().along_m; }
 
   template <class... Each>
   static std::vector<Hypothesis> hypotheses(Each... each) {

@@ -28,7 +28,7 @@ const std::vector<Descriptor>& unlike() {
   return descriptors;
 }
 
-const PcaProjection& codebook() {
+const PcaProjection& projection() {
   static const PcaProjection trained = PcaProjection::trained(unlike(), kStep);
   return trained;
 }
@@ -44,7 +44,7 @@ Descriptor between(std::size_t a, std::size_t b, double part) {
 }
 
 double distance(const Descriptor& a, const Descriptor& b) {
-  return kStep * std::sqrt(distance_squared(codebook().compact(a), codebook().compact(b)));
+  return kStep * std::sqrt(distance_squared(projection().compact(a), projection().compact(b)));
 }
 
 // At equal distances from unlike()[0] and unlike()[1].
@@ -68,7 +68,7 @@ Descriptor at_distance(double wanted) {
 LocalLandmark landmark(const Descriptor& descriptor, const Eigen::Vector3d& enu_m,
                        const AlongRange& along = {0, 10}) {
   LocalLandmark landmark = testing::landmark_at(enu_m);
-  landmark.descriptor = codebook().compact(descriptor);
+  landmark.descriptor = projection().compact(descriptor);
   landmark.along = along;
   return landmark;
 }
@@ -78,8 +78,8 @@ class MatchGlobal : public ::testing::Test {
   std::vector<LandmarkMatch> matches(const std::vector<Descriptor>& seen,
                                      const AlongRange& region = {0, 10}) const {
     const FeatureSet set{std::vector<Feature>(seen.size(), Feature{100, 100, 10}), seen};
-    const CompactFrame frame(set, codebook());
-    return match_global(frame, codebook().step(), landmarks_, region, {});
+    const CompactFrame frame(set, projection());
+    return match_global(frame, projection().quantization_step(), landmarks_, region, {});
   }
 
   std::vector<LocalLandmark> landmarks_;
@@ -184,9 +184,9 @@ class MatchGuided : public ::testing::Test {
   }
 
   std::vector<LandmarkMatch> matches(const AlongRange& region = {0, 10}) const {
-    const CompactFrame frame(set_, codebook());
-    return match_guided(frame, codebook().step(), landmarks_, region, belief_, kSceneCamera,
-                        settings_);
+    const CompactFrame frame(set_, projection());
+    return match_guided(frame, projection().quantization_step(), landmarks_, region, belief_,
+                        kSceneCamera, settings_);
   }
 
   const Descriptor& it_ = unlike()[0];

@@ -63,7 +63,7 @@ Eigen::Vector3d vector_from(const EnuPoint& point) {
 
 LandmarkRoad::LandmarkRoad()
     : line_(road_line()),
-      codebook_(PcaProjection::trained(unlike_descriptors(500, 1), kDescriptorStep)) {
+      projection_(PcaProjection::trained(unlike_descriptors(500, 1), kDescriptorStep)) {
   constexpr double kSpacingM = 0.5;
   const auto descriptors = unlike_descriptors(static_cast<std::size_t>(kLengthM / kSpacingM), 2);
   std::mt19937 random(4);
@@ -94,7 +94,7 @@ std::vector<LandmarkTile> LandmarkRoad::tiles() const {
     tile.index = index;
     tile.origin_m = index * kTileM;
     Landmark landmark;
-    landmark.descriptor = codebook_.compact(thing.descriptor);
+    landmark.descriptor = projection_.compact(thing.descriptor);
     landmark.position = LocalFrame(line_.point_at(tile.origin_m)).enu_from_geo(thing.position);
     landmark.depth_sigma_m = 0.05F;
     landmark.size_m = static_cast<float>(thing.size_m);
@@ -153,7 +153,7 @@ LocalizerSettings settings_of_a_short_reach() {
 
 std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road) {
   const nlohmann::json parameters = {
-      {"items", "landmarks"}, {"focal_px", {700, 700}}, {"codebook", road.codebook().to_json()}};
+      {"items", "landmarks"}, {"focal_px", {700, 700}}, {"codebook", road.projection().to_json()}};
   auto map = std::make_shared<MemorySource>(kVersion, "tracklets", parameters);
   std::vector<MemorySource::Tile> tiles;
   for (const LandmarkTile& tile : road.tiles()) {

@@ -37,7 +37,7 @@ class LandmarkRoad {
   LandmarkRoad();
 
   const RouteLine& line() const { return line_; }
-  const PcaProjection& codebook() const { return codebook_; }
+  const PcaProjection& projection() const { return projection_; }
   SegmentDescription description() const;
   std::vector<LandmarkTile> tiles() const;
   Camera query_camera() const;
@@ -58,7 +58,7 @@ class LandmarkRoad {
 
   RouteLine line_;
   std::vector<Thing> things_;
-  PcaProjection codebook_;
+  PcaProjection projection_;
 };
 
 // The road, created once for all tests.

@@ -57,7 +57,7 @@ class SupportOf : public ::testing::Test {
   // The support of the given matches in a frame with the features of the scene.
   LandmarkSupport support(const std::vector<LandmarkMatch>& found, double along_m = kAlongM) const {
     const FeatureSet set{scene_.features, std::vector<Descriptor>(scene_.features.size())};
-    const CompactFrame frame(set, codebook_);
+    const CompactFrame frame(set, projection_);
     const PoseSolver solver(kSceneCamera, frame.features, scene_.landmarks, {});
     const PoseEstimate estimate{LandmarkScene::belief(scene_.state(), 0.1, 0.1), found};
     return support_of(estimate, along_m, frame, scene_.landmarks, solver, kImage, {});
@@ -65,7 +65,7 @@ class SupportOf : public ::testing::Test {
 
   LandmarkScene scene_{200};
   std::vector<LandmarkMatch> inside_;  // of the image
-  PcaProjection codebook_ = PcaProjection::trained(testing::unlike_descriptors(100, 1), 0.02);
+  PcaProjection projection_ = PcaProjection::trained(testing::unlike_descriptors(100, 1), 0.02);
 };
 
 TEST_F(SupportOf, AllFoundInTheirPlaces) {

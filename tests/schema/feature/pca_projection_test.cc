@@ -60,11 +60,11 @@ double root_sift_distance(const Descriptor& a, const Descriptor& b) {
 
 TEST(PcaProjection, DistancesAreThoseOfRootSift) {
   const auto descriptors = random_descriptors(400);
-  const PcaProjection codebook = PcaProjection::trained(descriptors, kStep);
+  const PcaProjection projection = PcaProjection::trained(descriptors, kStep);
   for (std::size_t i = 1; i < descriptors.size(); ++i) {
     const double exact = root_sift_distance(descriptors[0], descriptors[i]);
-    const double compact = kStep * std::sqrt(distance_squared(codebook.compact(descriptors[0]),
-                                                              codebook.compact(descriptors[i])));
+    const double compact = kStep * std::sqrt(distance_squared(projection.compact(descriptors[0]),
+                                                              projection.compact(descriptors[i])));
     EXPECT_NEAR(compact, exact, 0.06 * exact) << i;
   }
 }
@@ -95,26 +95,26 @@ TEST(PcaProjection, FindsThePrincipalAxes) {
       descriptors.push_back(descriptor);
     }
   }
-  const PcaProjection codebook = PcaProjection::trained(descriptors, kStep);
+  const PcaProjection projection = PcaProjection::trained(descriptors, kStep);
   const auto with_strong = [&](int strong) { return descriptors[(strong + 2) * 5 + 2]; };
   const auto with_weak = [&](int weak) { return descriptors[2 * 5 + (weak + 2)]; };
-  const CompactDescriptor strong = codebook.compact(with_strong(2));
-  const CompactDescriptor weak = codebook.compact(with_weak(2));
+  const CompactDescriptor strong = projection.compact(with_strong(2));
+  const CompactDescriptor weak = projection.compact(with_weak(2));
   // Of components with equal magnitude the first is the positive one. The mean of the first axis
   // is 0, and a displacement has the same length as in RootSIFT.
   EXPECT_NEAR(strong[0] * kStep, root_sift_distance(with_strong(2), with_strong(0)), 2 * kStep);
   EXPECT_NEAR(weak[1] * kStep, root_sift_distance(with_weak(2), with_weak(0)), 2 * kStep);
-  EXPECT_NEAR(codebook.compact(with_strong(-2))[0], -strong[0], 1);
+  EXPECT_NEAR(projection.compact(with_strong(-2))[0], -strong[0], 1);
   EXPECT_NEAR(strong[1], 0, 1);
   EXPECT_NEAR(weak[0], 0, 1);
 }
 
 TEST(PcaProjection, TheFirstAxisHasTheGreatestVariance) {
   const auto descriptors = random_descriptors(400);
-  const PcaProjection codebook = PcaProjection::trained(descriptors, kStep);
+  const PcaProjection projection = PcaProjection::trained(descriptors, kStep);
   std::array<double, kCompactValues> squares{};
   for (const Descriptor& descriptor : descriptors) {
-    const CompactDescriptor compact = codebook.compact(descriptor);
+    const CompactDescriptor compact = projection.compact(descriptor);
     for (std::size_t k = 0; k < squares.size(); ++k) squares[k] += compact[k] * compact[k];
   }
   for (std::size_t k = 1; k < squares.size(); ++k) EXPECT_LE(squares[k], 1.05 * squares[k - 1]);
@@ -122,14 +122,14 @@ TEST(PcaProjection, TheFirstAxisHasTheGreatestVariance) {
 }
 
 TEST(PcaProjection, ADescriptorsLengthDoesNotMatter) {
-  const PcaProjection codebook = PcaProjection::trained(random_descriptors(50), kStep);
+  const PcaProjection projection = PcaProjection::trained(random_descriptors(50), kStep);
   Descriptor weak{};
   Descriptor strong{};
   for (std::size_t d = 0; d < weak.size(); ++d) {
     weak[d] = static_cast<std::uint8_t>(d % 50);
     strong[d] = static_cast<std::uint8_t>(5 * weak[d]);
   }
-  EXPECT_EQ(codebook.compact(weak), codebook.compact(strong));
+  EXPECT_EQ(projection.compact(weak), projection.compact(strong));
 }
 
 TEST(PcaProjection, SaturatesBeyond8Bits) {
@@ -146,9 +146,9 @@ TEST(PcaProjection, SaturatesBeyond8Bits) {
 TEST(PcaProjection, TooFewDescriptorsGiveAxesOfZero) {
   const auto descriptors = random_descriptors(3);
   for (const std::size_t count : {0, 1}) {
-    const PcaProjection codebook =
+    const PcaProjection projection =
         PcaProjection::trained(std::span(descriptors).first(count), kStep);
-    EXPECT_THAT(codebook.compact(descriptors[2]), Each(0)) << count;
+    EXPECT_THAT(projection.compact(descriptors[2]), Each(0)) << count;
   }
   const PcaProjection of_three = PcaProjection::trained(descriptors, kStep);
   const CompactDescriptor compact = of_three.compact(descriptors[2]);
@@ -163,12 +163,12 @@ TEST(PcaProjection, TheSameDescriptorsGiveTheSameCodebook) {
 
 TEST(PcaProjection, SurvivesTheMap) {
   for (const double step : {0.02, 1.0 / 3, 1e-300}) {
-    const PcaProjection codebook = PcaProjection::trained(random_descriptors(60), step);
-    const auto read = PcaProjection::from_json(codebook.to_json());
+    const PcaProjection projection = PcaProjection::trained(random_descriptors(60), step);
+    const auto read = PcaProjection::from_json(projection.to_json());
     ASSERT_TRUE(read.ok()) << read.error().line();
-    EXPECT_EQ(*read, codebook);
-    EXPECT_EQ(read->step(), step);
-    EXPECT_EQ(read->to_json(), codebook.to_json());
+    EXPECT_EQ(*read, projection);
+    EXPECT_EQ(read->quantization_step(), step);
+    EXPECT_EQ(read->to_json(), projection.to_json());
   }
 }
 
@@ -188,16 +188,16 @@ TEST(PcaProjection, ReadsWhatTheFormatSays) {
   mean[2] = 51;  // 0.2
   const nlohmann::json object = {
       {"step", 0.05}, {"mean", base64_of(mean)}, {"axes", base64_of(axes)}};
-  const auto codebook = PcaProjection::from_json(object);
-  ASSERT_TRUE(codebook.ok()) << codebook.error().line();
+  const auto projection = PcaProjection::from_json(object);
+  ASSERT_TRUE(projection.ok()) << projection.error().line();
   Descriptor descriptor{};
   descriptor[2] = 128;
   descriptor[3] = 72;  // root of 0.64 is 0.8
   CompactDescriptor expected{};
   expected[7] = -12;
-  EXPECT_EQ(codebook->compact(descriptor), expected);
+  EXPECT_EQ(projection->compact(descriptor), expected);
   expected[7] = 4;
-  EXPECT_EQ(codebook->compact(Descriptor{}), expected);
+  EXPECT_EQ(projection->compact(Descriptor{}), expected);
 }
 
 nlohmann::json sound() { return PcaProjection::trained({}, kStep).to_json(); }

@@ -11,7 +11,7 @@ TEST(PaperTracker, TakesTheFirstFramesAsMeasured) {  // section 4.2.4
   const auto tracker = make_paper_tracker({});
   tracker->start(0, {100, 0.5, 20});
   EXPECT_TRUE(tracker->advance(0.2, Measurement{102.4, 0.5, 20}));
-  EXPECT_DOUBLE_EQ(tracker->position().along_m, 102.4);
+  EXPECT_DOUBLE_EQ(tracker->pose().along_m, 102.4);
 }
 
 TEST(PaperTracker, SearchesFromTheLastPositionToRhoStepsAhead) {  // section 4.2.2
@@ -33,7 +33,7 @@ TEST(PaperTracker, WithoutFilterItIsTheMeasurement) {
   for (int k = 1; k < 6; ++k) {
     const double along_m = 100 + 2 * k + (k % 2 == 0 ? 1 : -1);
     tracker->advance(0.2 * k, Measurement{along_m, 0.5, 20});
-    EXPECT_DOUBLE_EQ(tracker->position().along_m, along_m);
+    EXPECT_DOUBLE_EQ(tracker->pose().along_m, along_m);
   }
 }
 
@@ -48,7 +48,7 @@ TEST(PaperTracker, TrustsTheMotionModelMoreBeyondTheThreshold) {  // section 4.2
     tracker->start(0, {100, 0.5, 20});
     tracker->advance(0.2, Measurement{100, 0.5, 20});
     tracker->advance(0.4, Measurement{100 + off_m, 0.5, 20});
-    return tracker->position().along_m - 100;
+    return tracker->pose().along_m - 100;
   };
   EXPECT_GT(after(0.9), 0.8);
   EXPECT_LT(after(1.1), 0.5);
@@ -63,7 +63,7 @@ TEST(PaperTracker, AFrameOfFewTrackletsIsPredictedByTheMotionModel) {  // sectio
     tracker->start(0, {100, 0.5, 20});
     EXPECT_TRUE(tracker->advance(0.2, Measurement{102, 0.5, 10}));
     EXPECT_FALSE(tracker->advance(0.4, Measurement{101, 0.1, 9}));
-    EXPECT_DOUBLE_EQ(tracker->position().along_m, 104);
+    EXPECT_DOUBLE_EQ(tracker->pose().along_m, 104);
   }
 }
 
@@ -72,8 +72,8 @@ TEST(PaperTracker, PredictsWithTheMotionModel) {  // Eq. 16
   tracker->start(0, {100, 0.5, 20});
   tracker->advance(0.2, Measurement{102, 0.5, 20});
   EXPECT_FALSE(tracker->advance(0.4, std::nullopt));
-  EXPECT_NEAR(tracker->position().along_m, 104, 1e-9);
-  EXPECT_GT(tracker->position().sigma_m, 0.5);
+  EXPECT_NEAR(tracker->pose().along_m, 104, 1e-9);
+  EXPECT_GT(tracker->pose().sigma_m, 0.5);
 }
 
 TEST(PaperTracker, FiltersAfterTheFirstFrames) {  // section 4.2.4
@@ -85,8 +85,8 @@ TEST(PaperTracker, FiltersAfterTheFirstFrames) {  // section 4.2.4
   tracker->advance(0.2, Measurement{102, 0.5, 20});
   tracker->advance(0.4, Measurement{104, 0.5, 20});
   tracker->advance(0.6, Measurement{106.5, 0.5, 20});
-  EXPECT_GT(tracker->position().along_m, 106.1);
-  EXPECT_LT(tracker->position().along_m, 106.4);
+  EXPECT_GT(tracker->pose().along_m, 106.1);
+  EXPECT_LT(tracker->pose().along_m, 106.4);
 }
 
 TEST(PaperTracker, StartsAnewWithoutAVelocity) {
@@ -99,7 +99,7 @@ TEST(PaperTracker, StartsAnewWithoutAVelocity) {
   EXPECT_DOUBLE_EQ(region.from_m, 50 - settings.min_region_m);
   EXPECT_NEAR(region.to_m, 50 + 0.2 * settings.max_speed_mps + settings.min_region_m, 1e-9);
   tracker->advance(10.2, Measurement{53, 0.5, 20});
-  EXPECT_DOUBLE_EQ(tracker->position().along_m, 53);
+  EXPECT_DOUBLE_EQ(tracker->pose().along_m, 53);
 }
 
 TEST(PaperTracker, AVehicleOnItsWayDoesNotGoBack) {
@@ -114,7 +114,7 @@ TEST(MotionTracker, LearnsTheSpeed) {
   tracker->start(0, {100, 0.1, 20});
   for (int k = 1; k <= 10; ++k) tracker->advance(0.2 * k, Measurement{100 + 3.0 * k, 0.1, 20});
   EXPECT_NEAR(tracker->predict(2.2).along_m, 133, 0.1);
-  EXPECT_LT(tracker->position().sigma_m, 0.1);
+  EXPECT_LT(tracker->pose().sigma_m, 0.1);
 }
 
 TEST(MotionTracker, RefusesAnOutlierButNotForEver) {
@@ -124,10 +124,10 @@ TEST(MotionTracker, RefusesAnOutlierButNotForEver) {
   tracker->start(0, {100, 0.1, 20});
   for (int k = 1; k <= 10; ++k) tracker->advance(0.2 * k, Measurement{100 + 3.0 * k, 0.1, 20});
   EXPECT_FALSE(tracker->advance(2.2, Measurement{160, 0.1, 20}));
-  EXPECT_NEAR(tracker->position().along_m, 133, 0.1);
+  EXPECT_NEAR(tracker->pose().along_m, 133, 0.1);
   EXPECT_FALSE(tracker->advance(2.4, Measurement{163, 0.1, 20}));
   EXPECT_TRUE(tracker->advance(2.6, Measurement{166, 0.1, 20}));
-  EXPECT_NEAR(tracker->position().along_m, 166, 0.1);
+  EXPECT_NEAR(tracker->pose().along_m, 166, 0.1);
 }
 
 TEST(MotionTracker, SearchesWiderTheLessItKnows) {

@@ -90,8 +90,8 @@ TEST(PaperTracker, ParticlesFollowAsKalmansFilterDoes) {
   for (int k = 1; k <= 20; ++k) {
     const Measurement measured{100 + 2.0 * k + (k % 3 - 1) * 0.6, 0.5, 20};
     for (auto* tracker : {kalman.get(), particles.get()}) tracker->advance(0.2 * k, measured);
-    EXPECT_NEAR(particles->position().along_m, kalman->position().along_m, 0.15);
-    EXPECT_NEAR(particles->position().sigma_m, kalman->position().sigma_m, 0.05);
+    EXPECT_NEAR(particles->pose().along_m, kalman->pose().along_m, 0.15);
+    EXPECT_NEAR(particles->pose().sigma_m, kalman->pose().sigma_m, 0.05);
   }
 }
 

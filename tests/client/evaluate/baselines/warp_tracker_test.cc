@@ -82,10 +82,10 @@ TEST_F(WarpTracking, TakesTheNearestFrameOfTheMap) {
   for (const double step_m : {1.7, 2.9, 0.0, 0.0, 3.3, 7.0, 7.0, 2.0, 1.1}) {
     along_m += step_m;
     EXPECT_TRUE(tracker_->track(frame(along_m)).measured);
-    EXPECT_NEAR(tracker_->position().along_m, along_m, kSpacingM / 2 + 1e-6);
-    EXPECT_GE(tracker_->position().sigma_m, kSpacingM / std::sqrt(12.0) - 1e-6);
+    EXPECT_NEAR(tracker_->pose().along_m, along_m, kSpacingM / 2 + 1e-6);
+    EXPECT_GE(tracker_->pose().sigma_m, kSpacingM / std::sqrt(12.0) - 1e-6);
   }
-  EXPECT_LT(tracker_->position().sigma_m, 3 * kSpacingM);
+  EXPECT_LT(tracker_->pose().sigma_m, 3 * kSpacingM);
 }
 
 // The images move on by 2 m per frame, but the road ends.
@@ -94,7 +94,7 @@ TEST_F(WarpTracking, StaysAtTheEndOfTheRoad) {
   for (double along_m = 196; along_m < 206; along_m += 2) {
     (void)tracker_->track(frame(along_m));
   }
-  EXPECT_EQ(tracker_->position().along_m, kLengthM);
+  EXPECT_EQ(tracker_->pose().along_m, kLengthM);
 }
 
 TEST_F(WarpTracking, NothingIsFoundWhereTheMapHasNoFrames) {

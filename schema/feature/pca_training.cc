@@ -45,13 +45,14 @@ Vector with_sign(const Vector& axis) {
 
 }  // namespace
 
-PcaProjection PcaProjection::trained(std::span<const Descriptor> descriptors, double step) {
+PcaProjection PcaProjection::trained(std::span<const Descriptor> descriptors,
+                                     double quantization_step) {
   const Vector mean = mean_of(descriptors);
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance_of(descriptors, mean));
-  PcaProjection codebook;
-  codebook.step_ = step;
+  PcaProjection projection;
+  projection.quantization_step_ = quantization_step;
   for (int d = 0; d < kDescriptorBytes; ++d) {
-    codebook.mean_[static_cast<std::size_t>(d)] =
+    projection.mean_[static_cast<std::size_t>(d)] =
         static_cast<std::uint8_t>(std::lround(mean(d) * 255));
   }
   for (int k = 0; k < kCompactValues; ++k) {
@@ -59,11 +60,11 @@ PcaProjection PcaProjection::trained(std::span<const Descriptor> descriptors, do
     if (solver.eigenvalues()(column) < kLeastVariance) break;
     const Vector axis = with_sign(solver.eigenvectors().col(column));
     for (int d = 0; d < kDescriptorBytes; ++d) {
-      codebook.axes_[static_cast<std::size_t>(d)][static_cast<std::size_t>(k)] =
+      projection.axes_[static_cast<std::size_t>(d)][static_cast<std::size_t>(k)] =
           static_cast<std::int8_t>(std::lround(axis(d) * 127));
     }
   }
-  return codebook;
+  return projection;
 }
 
 }  // namespace milepost
