@@ -81,6 +81,7 @@ class Command(unittest.TestCase):
         self.expect_refused(2, [], "PAIRS", "--help")
         self.expect_refused(2, [self.pairs, "--method", "magic"], "'magic'", "milepost")
         self.expect_refused(2, [self.pairs, "--studies", "weather"], "'weather'", "lateral")
+        self.expect_refused(2, [self.pairs, "--situations", "wrong"], "--situations", "--studies honesty")
         self.expect_refused(2, [self.pairs, "--jobs", "0"], "--jobs")
         self.expect_refused(2, [self.pairs, "--colour"], "--colour")
         self.expect_refused(2, [self.folder / "none.txt"], "none.txt", "no such list")

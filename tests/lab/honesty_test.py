@@ -11,6 +11,7 @@ from unittest import mock
 import numpy as np
 
 from laboratory import honesty
+from laboratory.errors import WrongCall
 from laboratory.honesty import Drive, Situation
 from laboratory.pairs import Pair, Place
 from laboratory.road import LocalFrame, Road
@@ -24,12 +25,12 @@ PAIRS = [Pair("a", PLACE, "a-map", "a-query"), Pair("a2", PLACE, "a-map", "a-que
 METHODS = ["tracklet-regression-kalman", "milepost"]
 
 
-def drive(error_m, sigma_m=0.1, tracking=True, on_map=True, has_begun=True, step_m=1.0, along_m=None):
+def drive(error_m, sigma_m=0.1, tracking=True, on_map=True, has_begun=True, step_m=1.0, along_m=None, taken_m=math.inf):
     def of_frames(values, kind=float):
         return np.broadcast_to(np.asarray(values, kind), len(error_m)).copy()
     return Drive("a", "milepost", of_frames(tracking, bool), of_frames(error_m), of_frames(sigma_m),
                  of_frames(error_m if along_m is None else along_m), of_frames(sigma_m), 0.0, of_frames(on_map, bool),
-                 of_frames(has_begun, bool), of_frames(step_m))
+                 of_frames(has_begun, bool), of_frames(step_m), of_frames(taken_m))
 
 
 def cells(situation, *drives):
@@ -57,6 +58,11 @@ class Counting(unittest.TestCase):
         found = cells(strange, drive([0, 0, 0, math.nan], [20, 0.9, 20, math.nan], tracking=[True, False, False, False]))
         self.assertEqual((found["wrong"], found["in time"]), (2, "–"))
         self.assertTrue(math.isnan(found["mean m"]))
+
+    def test_on_a_shared_street_of_a_strange_road_the_true_place_is_right(self):
+        strange = Situation("s", "", "strange")
+        self.assertEqual(cells(strange, drive([50] * 4, [0.1, 0.1, 0.1, 0.4], taken_m=[0.1, 0.9, 1.1, 1.1]))["wrong"], 1)
+        self.assertEqual(cells(strange, drive([50, math.nan], 0.1, taken_m=math.nan))["wrong"], 2)
 
     def test_nothing_told_is_counted_as_nothing(self):
         found = cells(Situation("s", ""), drive([math.nan], math.nan, tracking=False))
@@ -111,9 +117,28 @@ class Plans(unittest.TestCase):
         a, b, c = (names["whole map"][index].map_stage for index in (0, 2, 3))
         wrong = [(run.pair.name, run.map_stage) for run in names["wrong road"]]
         self.assertCountEqual(wrong, [("b", a), ("c", a), ("a", b), ("a2", b), ("c", b), ("a", c), ("a2", c), ("b", c)])
+        self.assertEqual({run.taken_drive for run in names["wrong road"]}, {None})
         self.assertIn("--max-features", names["125 features a frame"][0].map_stage.settings)
         for run in names["whole map"]:
             self.assertEqual(run.evaluation.settings, ("milepost",))
+
+    def test_only_what_is_wanted_is_run(self):
+        planned = honesty.plan(Planner(METHODS), PAIRS, METHODS, ["wrong", "start, s"])
+        self.assertEqual([situation.name for situation in planned], ["start, soft", "wrong road"])
+        with self.assertRaisesRegex(WrongCall, "'rain'.*whole map"):
+            honesty.plan(Planner(METHODS), PAIRS, METHODS, ["wrong", "rain"])
+
+    def test_frames_of_one_town_tell_where_they_were_taken(self):
+        town = Place(simulate=("--seed", "3"))
+        pairs = [Pair("a", town, "a-map", "a-query"), Pair("b", town, "b-map", "b-query"),
+                 Pair("c", Place(simulate=("--seed", "4")), "a-map", "a-query")]
+        planner = Planner(METHODS)
+        names = {situation.name: runs for situation, runs in honesty.plan(planner, pairs, METHODS).items()}
+        planner.simulate(town).result = pathlib.Path("/made")
+        told = {(run.pair.name, run.map_stage.name, run.pair.place == town): run.taken_drive for run in names["wrong road"]
+                if run.find_taken}
+        self.assertEqual(told, {("a", "b-map", True): pathlib.Path("/made/a-query"),
+                                ("b", "a-map", True): pathlib.Path("/made/b-query")})
 
 
 class Reading(unittest.TestCase):
@@ -121,17 +146,19 @@ class Reading(unittest.TestCase):
         with tempfile.TemporaryDirectory() as temporary:
             folder = pathlib.Path(temporary)
             write_drive(folder / "query", frames=4, step_m=10)
+            write_drive(folder / "taken", frames=4, step_m=12)
             (folder / "result").mkdir()
             header = "filename,status,latitude_deg,longitude_deg,sigma_m,lateral_sigma_m,error_m\n"
             (folder / "result/fixes-milepost.csv").write_text(
                 header + f"0.jpg,initializing,,,,,\n1.jpg,tracking,{10 / 110574:.10f},{3 / 111320:.10f},0.3,0.4,0.01\n"
                 f"2.jpg,predicted,{24 / 110574:.10f},0,0.2,,4\n3.jpg,off-map,,,,,\n")
-            run = types.SimpleNamespace(pair=PAIRS[0], query_drive=folder / "query", map_file=folder / "drive.map",
+            run = types.SimpleNamespace(pair=PAIRS[0], query_drive=folder / "query", taken_drive=folder / "taken", map_file=folder / "drive.map",
                                         evaluation=types.SimpleNamespace(kind="evaluate", result=folder / "result"))
             with mock.patch.object(honesty, "read_roads", lambda file: {"road": self.northwards()}):
                 (read,) = honesty.read_drives(run)
         self.assertEqual((read.name, read.method), ("a", "milepost"))
         np.testing.assert_allclose(read.error_m, [math.nan, 3, 4, math.nan], atol=0.01)
+        np.testing.assert_allclose(read.taken_error_m, [math.nan, math.hypot(3, 2), 0, math.nan], atol=0.02)
         np.testing.assert_allclose(read.sigma_m, [math.nan, 0.5, 0.2, math.nan])
         np.testing.assert_equal(read.on_map, [True, True, True, False])
         np.testing.assert_equal(read.has_begun, [False, True, True, True])

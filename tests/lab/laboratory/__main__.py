@@ -50,6 +50,8 @@ def parse(words):
                         help="methods to measure (all that milepost-client has)")
     parser.add_argument("--studies", metavar="S", nargs="+", default=["lateral"],
                         help=f"studies to run: {', '.join(STUDIES)}, all or none (lateral, which needs no further run)")
+    parser.add_argument("--situations", metavar="WORDS", nargs="+", default=[],
+                        help="of the study honesty only situations whose names begin so, 'wrong road' for example (all)")
     parser.add_argument("--jobs", metavar="N", type=int, default=len(os.sched_getaffinity(0)),
                         help="processes at a time (the number of processors)")
     parser.add_argument("--cache", metavar="DIR", type=pathlib.Path, default=PROJECT / "build/lab/cache",
@@ -61,6 +63,8 @@ def parse(words):
     if options.jobs < 1:
         raise WrongCall(f"--jobs: {options.jobs} is no number of processes; give 1 or more")
     options.studies = chosen_studies(options.studies)
+    if options.situations and "honesty" not in options.studies:
+        raise WrongCall("--situations: these belong to the study honesty; give --studies honesty, too")
     return options
 
 
@@ -76,7 +80,10 @@ def shown_command(options):
     words = ["tests/lab/run", options.pairs]
     if options.method:
         words += ["--method", *options.method]
-    return shlex.join([*words, "--studies", *(options.studies or ["none"])])
+    words += ["--studies", *(options.studies or ["none"])]
+    if options.situations:
+        words += ["--situations", *options.situations]
+    return shlex.join(words)
 
 
 def timing(stages, seconds):
@@ -96,7 +103,7 @@ def run(options):
 
     began = time.monotonic()
     name = pathlib.Path(options.pairs).stem
-    lab = Laboratory(name, read_pairs(options.pairs), chosen_methods(options.method), options.studies)
+    lab = Laboratory(name, read_pairs(options.pairs), chosen_methods(options.method), options.studies, options.situations)
     with Cache(options.cache, options.jobs, say=lambda text: print(text, flush=True)).opened() as cache:
         lab.measure(cache)
     out = options.out or PROJECT / "build/lab" / name

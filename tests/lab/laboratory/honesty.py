@@ -7,6 +7,7 @@ import numpy as np
 
 from . import figures, paper
 from .altered_drive import SPOILS
+from .errors import WrongCall
 from .fixes import column, read_table
 from .road import earth_centred, read_positions, read_roads
 from .runs import AS_RECORDED, Alteration
@@ -41,8 +42,8 @@ def as_recorded_or(kind):
     return AS_RECORDED if kind == "plain" else Alteration(kind, ("--spoil", kind))
 
 
-def plan(planner, pairs, methods):
-    """{Situation: runs}, to be run."""
+def plan(planner, pairs, methods, wanted=()):
+    """{Situation: runs}, to be run: of situations whose name begins with one of the wanted words, or of all."""
     methods = [method for method in (paper.OURS,) if method in methods] or list(methods)
     ahead = [pair for pair in pairs if REVERSED not in pair.tags]
     back = [pair for pair in pairs if REVERSED in pair.tags]
@@ -75,7 +76,11 @@ def plan(planner, pairs, methods):
         planned[Situation(calibration.name, "altered")] = runs(query=calibration)
     planned[Situation("125 features a frame", "altered")] = runs(mapper_settings=("--max-features", "125"))
     planned[Situation("map frames 4.9 m apart", "altered")] = runs(mapper_settings=("--min-frame-spacing-m", "4.9"))
-    return planned
+    for word in wanted:
+        if not any(situation.name.startswith(word) for situation in planned):
+            raise WrongCall(f"--situations: no situation of these pairs begins with '{word}'; choose from "
+                            + ", ".join(situation.name for situation in planned))
+    return {situation: these for situation, these in planned.items() if not wanted or situation.name.startswith(tuple(wanted))}
 
 
 @dataclasses.dataclass
@@ -93,6 +98,7 @@ class Drive:
     on_map: np.ndarray
     has_begun: np.ndarray  # whether the frame lies after the beginning of a road
     step_m: np.ndarray  # from the frame before
+    taken_error_m: np.ndarray  # in plan, from where the frame was taken, if that lies in the map's world
 
     @property
     def told(self):
@@ -113,12 +119,18 @@ def read_drives(run):
     pieces = sorted(each for each in folder.iterdir() if each.is_dir()) if run.evaluation.kind == "starts" else [folder]
     roads = list(read_roads(run.map_file).values())
     positions = read_positions(run.query_drive)
-    return [read_drive(file, run, roads, positions) for piece in pieces for file in sorted(piece.glob("fixes-*.csv"))]
+    taken = read_positions(run.taken_drive) if run.taken_drive else None
+    return [read_drive(file, run, roads, positions, taken) for piece in pieces for file in sorted(piece.glob("fixes-*.csv"))]
 
 
-def read_drive(file, run, roads, positions):
+def read_drive(file, run, roads, positions, taken):
+    """`positions` and `taken`: earth-centred, by frame; `taken` None where it is not in the map's world."""
     rows, frame = read_table(file), roads[0].frame
-    truth_m = frame.from_earth(np.array([positions[row["filename"]] for row in rows]))[:, :2]
+
+    def in_plan_m(places):
+        return frame.from_earth(np.array([places[row["filename"]] for row in rows]))[:, :2]
+
+    truth_m = in_plan_m(positions)
     altitude_m = roads[0].altitude_m
     told_m = frame.from_earth(earth_centred(column(rows, "latitude_deg"), column(rows, "longitude_deg"), altitude_m))
     lateral_sigma_m = np.nan_to_num(column(rows, "lateral_sigma_m"))
@@ -131,7 +143,9 @@ def read_drive(file, run, roads, positions):
         along_error_m=np.abs(column(rows, "error_m")), along_sigma_m=along_sigma_m, truth_sigma_m=run.pair.truth_sigma_m,
         on_map=np.min([np.abs(road.lateral_m(truth_m)) for road in roads], axis=0) < ON_MAP_M,
         has_begun=np.any([road.has_begun_at(truth_m) for road in roads], axis=0),
-        step_m=np.linalg.norm(np.diff(truth_m, axis=0, prepend=truth_m[:1]), axis=1))
+        step_m=np.linalg.norm(np.diff(truth_m, axis=0, prepend=truth_m[:1]), axis=1),
+        taken_error_m=(np.linalg.norm(told_m[:, :2] - in_plan_m(taken), axis=1) if taken
+                       else np.full(len(rows), math.inf)))
 
 
 def known_in_time(situation, drive):
@@ -154,9 +168,11 @@ def known_in_time(situation, drive):
 
 
 def wrong_of(situation, drive):
-    """Marks the confidently wrong frames. On a road that is not the map's every claim is wrong."""
+    """Marks the confidently wrong frames. On a road that is not the map's every claim is wrong, but for one that tells
+    where the frame was taken: roads of one town share streets."""
     if situation.kind == "strange":
-        return drive.tracking | drive.told & (drive.sigma_m < STRANGE_SIGMA_M)
+        claimed = drive.tracking | drive.told & (drive.sigma_m < STRANGE_SIGMA_M)
+        return claimed & ~(drive.taken_error_m <= np.maximum(WRONG_M, WRONG_SIGMAS * drive.sigma_m))
     return drive.wrong
 
 
@@ -196,7 +212,7 @@ def cells_of(situation, drives):
 
 NOTE = (f"A fix is confidently wrong that is off by more than {WRONG_M:g} m and by more than {WRONG_SIGMAS:g} of its own "
         "sigmas, in plan; on a wrong road and in the opposite direction every fix that says `tracking` or a sigma below "
-        f"{STRANGE_SIGMA_M:g} m is. Mean, 95th percentile and maximum are of tracked frames, the shares within 1 and 2 and "
+        f"{STRANGE_SIGMA_M:g} m is, unless it is where the frame was taken (streets that roads of a town share). Mean, 95th percentile and maximum are of tracked frames, the shares within 1 and 2 and "
         f"beyond {BEYOND_SIGMAS} sigmas of all that were told; where the recorded positions are known to be rough, their sigma is "
         "added. Parts are 30 to 70 % and 10 to 50 % of a map drive's "
         "frames; on the map is within 6 m of its line. Starts are pieces of 20 frames, one each 12, with one receiver "

@@ -23,7 +23,7 @@ CLAIMS_NOTE = (
 class Laboratory:
     """Holds what a run found: `fixes` of every pair and method, studies by name, claims."""
 
-    def __init__(self, name, pairs, methods, study_names):
+    def __init__(self, name, pairs, methods, study_names, situations=()):
         self.name = name
         self.pairs = pairs
         self.methods = methods
@@ -33,7 +33,8 @@ class Laboratory:
         self.runs = [self.planner.run(pair, estimates=True) for pair in ahead]
         self.study_runs = {study: studies.plan(studies.STUDIES[study], self.planner, study_pairs(ahead), methods)
                            for study in study_names if study in studies.STUDIES}
-        self.honesty_runs = honesty.plan(self.planner, pairs, methods) if "honesty" in study_names else {}
+        self.honesty_runs = (honesty.plan(self.planner, pairs, methods, situations)
+                             if "honesty" in study_names else {})
         self.evidence_runs = evidence.plan(self.planner, ahead) if "evidence" in study_names else {}
 
     def measure(self, cache):

@@ -73,6 +73,7 @@ class Run:
     map_stage: Stage
     evaluation: Stage
     find_query: typing.Callable  # the folder of the query drive, once its stages are done
+    find_taken: typing.Callable | None = None  # of the drive that tells where its frames were taken, if that is another one
 
     @property
     def map_file(self):
@@ -81,6 +82,11 @@ class Run:
     @property
     def query_drive(self):
         return self.find_query()
+
+    @property
+    def taken_drive(self):
+        """Of frames that are laid onto another road of one simulated town: where they were taken, in the map's world."""
+        return self.find_taken and self.find_taken()
 
 
 class Planner:
@@ -106,7 +112,10 @@ class Planner:
             evaluation = self.starts(pair, name, mapping, chosen, needs, find_query)
         else:
             evaluation = self.evaluate(pair, name, mapping, chosen, self.estimates if estimates else (), needs, find_query)
-        return Run(pair, mapping, evaluation, find_query)
+        find_taken = None
+        if query.onto and pair.place.simulate and query.onto[0] == pair.place:
+            _, find_taken = self.drive(pair.place, pair.query_drive)
+        return Run(pair, mapping, evaluation, find_query, find_taken)
 
     def simulate(self, place):
         return self.once(("simulate", place), lambda: Stage(
