@@ -9,7 +9,7 @@
 #include "mapper/pipeline/frame_pipeline.h"
 #include "mapper/pipeline/layer_builder.h"
 #include "mapper/pipeline/layers.h"
-#include "mapper/pipeline/segment_plan.h"
+#include "mapper/pipeline/stretch_plan.h"
 #include "mapper/pipeline/trained_projection.h"
 #include "schema/store/map_store.h"
 
@@ -23,15 +23,15 @@ struct NamedBuilder {
   std::unique_ptr<LayerBuilder> builder;
 };
 
-// Builds the tiles of one segment from its frames.
-class SegmentBuilder {
+// Builds the tiles of a stretch's segments from its frames.
+class StretchBuilder {
  public:
-  SegmentBuilder(const Drive& drive, const SegmentPlan& plan, const PcaProjection& projection,
+  StretchBuilder(const Drive& drive, const StretchPlan& plan, const PcaProjection& projection,
                  const BuildSettings& settings)
       : drive_(drive),
         plan_(plan),
         settings_(settings),
-        context_{plan.id, drive.camera, plan.line, projection, settings.tile_length_m},
+        context_{drive.camera, plan.segments, projection, settings.tile_length_m},
         tracker_(settings.follow, drive.camera.width_px) {
     for (const Layer& layer : layers_of(settings)) {
       layers_.push_back({layer.name, make_layer_builder(layer, context_)});
@@ -77,7 +77,7 @@ class SegmentBuilder {
       if (!tiles) return tiles.error();
       for (const StoredTile& tile : *tiles) {
         const Status added =
-            map.add_tile(plan_.id, layer.layer, tile.index, tile.along, tile.items, tile.frame);
+            map.add_tile(tile.segment, layer.layer, tile.index, tile.along, tile.items, tile.frame);
         if (!added.ok()) return added;
         ++report.tiles;
         if (layer.layer != layers::kLandmarks) continue;
@@ -90,19 +90,19 @@ class SegmentBuilder {
   }
 
   const Drive& drive_;
-  const SegmentPlan& plan_;
+  const StretchPlan& plan_;
   const BuildSettings& settings_;
-  SegmentContext context_;
+  StretchContext context_;
   FeatureTracker tracker_;
   std::vector<NamedBuilder> layers_;
 };
 
-Status check_names_differ(const std::vector<SegmentPlan>& plans) {
+Status check_names_differ(const std::vector<Drive>& drives) {
   std::set<std::string> names;
-  for (const SegmentPlan& plan : plans) {
-    if (names.insert(plan.id).second) continue;
-    return Error{ErrorCode::invalid_input, "drive '" + plan.id + "'", "two drives have this name",
-                 "give each drive.json a name of its own"};
+  for (const Drive& drive : drives) {
+    if (names.insert(drive.name).second) continue;
+    return Error{ErrorCode::invalid_input, "drive '" + drive.name + "'",
+                 "two drives have this name", "give each drive.json a name of its own"};
   }
   return ok_status();
 }
@@ -132,15 +132,15 @@ Error nothing_found(const DriveReport& drive) {
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
                               int jobs, const OnProgress& on_progress) {
-  std::vector<SegmentPlan> plans;
+  std::vector<StretchPlan> plans;
   BuildProgress progress;
   for (const Drive& drive : drives) {
-    Result<SegmentPlan> plan = plan_segment(drive, settings.min_frame_spacing_m);
+    Result<StretchPlan> plan = plan_stretch(drive, settings.min_frame_spacing_m);
     if (!plan) return plan.error();
     progress.frames_total += plan->frame_indices.size();
     plans.push_back(std::move(*plan));
   }
-  for (const Status& checked : {check_names_differ(plans), check_cameras_agree(drives)}) {
+  for (const Status& checked : {check_names_differ(drives), check_cameras_agree(drives)}) {
     if (!checked.ok()) return checked.error();
   }
 
@@ -159,9 +159,11 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   BuildReport report;
   for (std::size_t i = 0; i < plans.size() && status.ok(); ++i) {
     report.drives.push_back({.folder = drives[i].folder.string()});
-    status = map->add_segment(stored_segment(plans[i]));
+    for (const SegmentCut& segment : plans[i].segments) {
+      if (status.ok()) status = map->add_segment(stored_segment(segment));
+    }
     if (status.ok()) {
-      status = SegmentBuilder(drives[i], plans[i], *projection, settings)
+      status = StretchBuilder(drives[i], plans[i], *projection, settings)
                    .run(jobs, *map, report, progress, on_progress);
     }
     if (status.ok() && report.drives.back().tracklets == 0 && !settings.allow_empty) {

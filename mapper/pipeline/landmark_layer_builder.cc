@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mapper/tracklets/on_segment.h"
 #include "schema/tile/codec.h"
 
 namespace milepost {
@@ -17,13 +18,14 @@ bool within_reach(const EnuPoint& point) {
 
 }  // namespace
 
-LandmarkLayerBuilder::LandmarkLayerBuilder(const SegmentContext& context,
+LandmarkLayerBuilder::LandmarkLayerBuilder(const StretchContext& context,
                                            const LandmarkLayerSettings& settings)
-    : context_(context),
-      settings_(settings),
-      mapper_(context.camera, settings.landmarks),
-      selector_(settings.selection),
-      assembler_(context.tile_length_m) {}
+    : context_(context), settings_(settings), mapper_(context.camera, settings.landmarks) {
+  for (const SegmentCut& cut : context.segments) {
+    segments_.push_back({&cut, LandmarkSelector(settings.selection),
+                         TileAssembler<MappedLandmark>(context.tile_length_m)});
+  }
+}
 
 void LandmarkLayerBuilder::add_frame(const Frame& recorded, const ExtractedFrame& /*frame*/,
                                      double along_m) {
@@ -36,28 +38,35 @@ void LandmarkLayerBuilder::add_tracks(const std::vector<Track>& tracks) {
 
 Result<std::vector<StoredTile>> LandmarkLayerBuilder::take_complete(double along_m) {
   for (const MappedLandmark& landmark : mapper_.take_mapped(std::isinf(along_m))) {
-    assembler_.add(landmark);
+    for (Segment& segment : segments_) {
+      if (auto placed = landmark_on(landmark, segment.cut->on_stretch))
+        segment.assembler.add(std::move(*placed));
+    }
   }
   std::vector<StoredTile> tiles;
   const double complete_until_m = std::min(along_m, mapper_.oldest_waiting_along_m());
-  for (const auto& complete : assembler_.take_complete(complete_until_m)) {
-    Result<StoredTile> tile = stored(complete.index, complete.items);
-    if (!tile) return tile.error();
-    if (tile->items > 0) tiles.push_back(std::move(*tile));
+  for (Segment& segment : segments_) {
+    const double complete_m = complete_on(complete_until_m, segment.cut->on_stretch);
+    for (const auto& complete : segment.assembler.take_complete(complete_m)) {
+      Result<StoredTile> tile = stored(segment, complete.index, complete.items);
+      if (!tile) return tile.error();
+      if (tile->items > 0) tiles.push_back(std::move(*tile));
+    }
   }
   return tiles;
 }
 
 // The tile of the best-ranked landmarks that fits the size target of its stretch of road.
-Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
-                                                const std::vector<MappedLandmark>& landmarks) {
+Result<StoredTile> LandmarkLayerBuilder::stored(
+    Segment& segment, std::uint32_t index, const std::vector<MappedLandmark>& landmarks) const {
+  const RouteLine& line = segment.cut->line;
   const double begin_m = index * context_.tile_length_m;
-  const double stretch_m = std::min(context_.tile_length_m, context_.line.length_m() - begin_m);
+  const double stretch_m = std::min(context_.tile_length_m, line.length_m() - begin_m);
   const double budget = settings_.size_target_kb_per_m * 1000 * stretch_m;
-  const std::vector<std::size_t> ranked = selector_.ranked(landmarks, context_.line);
+  const std::vector<std::size_t> ranked = segment.selector.ranked(landmarks, line);
 
   // The largest number of ranked landmarks that fits.
-  StoredTile best{index, {}, 0, {}};
+  StoredTile best{segment.cut->id, index, {}, 0, {}};
   std::vector<std::size_t> best_chosen;
   std::size_t fits = 0;
   std::size_t too_many = ranked.size() + 1;
@@ -69,7 +78,7 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
     std::vector<MappedLandmark> taken;
     taken.reserve(chosen.size());
     for (const std::size_t i : chosen) taken.push_back(landmarks[i]);
-    const LandmarkTile tile = packed(index, taken);
+    const LandmarkTile tile = packed(*segment.cut, index, taken);
     Bytes frame = encode_landmarks(tile);
     if (static_cast<double>(frame.size()) > budget) {
       too_many = count;
@@ -77,10 +86,10 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
     }
     fits = count;
     if (tile.landmarks.empty()) continue;  // none in range
-    best = {index, tile.along(), tile.landmarks.size(), std::move(frame)};
+    best = {segment.cut->id, index, tile.along(), tile.landmarks.size(), std::move(frame)};
     best_chosen = std::move(chosen);
   }
-  for (const std::size_t i : best_chosen) selector_.choose(landmarks[i], context_.line);
+  for (const std::size_t i : best_chosen) segment.selector.choose(landmarks[i], line);
   if (best.items == 0) return best;
   const Result<LandmarkTile> read = decode_landmarks(best.frame);
   if (!read) {
@@ -91,10 +100,10 @@ Result<StoredTile> LandmarkLayerBuilder::stored(std::uint32_t index,
   return best;
 }
 
-LandmarkTile LandmarkLayerBuilder::packed(std::uint32_t index,
+LandmarkTile LandmarkLayerBuilder::packed(const SegmentCut& segment, std::uint32_t index,
                                           const std::vector<MappedLandmark>& landmarks) const {
-  LandmarkTile tile{context_.segment, index, index * context_.tile_length_m, {}};
-  const LocalFrame local(context_.line.point_at(tile.origin_m));
+  LandmarkTile tile{segment.id, index, index * context_.tile_length_m, {}};
+  const LocalFrame local(segment.line.point_at(tile.origin_m));
   for (const MappedLandmark& mapped : landmarks) {
     Landmark landmark;
     landmark.position = local.enu_from_geo(mapped.position);

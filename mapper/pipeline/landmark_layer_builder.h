@@ -1,4 +1,5 @@
-// Builds the layer of the default method: as many landmarks as the size target allows.
+// Builds the layer of the default method: of each segment as many landmarks as the size target
+// allows. Each segment holds all landmarks that were observed from it, so that it needs no other.
 #pragma once
 
 #include "mapper/landmarks/landmark_mapper.h"
@@ -11,21 +12,28 @@ namespace milepost {
 
 class LandmarkLayerBuilder : public LayerBuilder {
  public:
-  LandmarkLayerBuilder(const SegmentContext& context, const LandmarkLayerSettings& settings);
+  LandmarkLayerBuilder(const StretchContext& context, const LandmarkLayerSettings& settings);
 
   void add_frame(const Frame& recorded, const ExtractedFrame& frame, double along_m) override;
   void add_tracks(const std::vector<Track>& tracks) override;
   Result<std::vector<StoredTile>> take_complete(double along_m) override;
 
  private:
-  Result<StoredTile> stored(std::uint32_t index, const std::vector<MappedLandmark>& landmarks);
-  LandmarkTile packed(std::uint32_t index, const std::vector<MappedLandmark>& landmarks) const;
+  struct Segment {
+    const SegmentCut* cut;
+    LandmarkSelector selector;
+    TileAssembler<MappedLandmark> assembler;
+  };
 
-  const SegmentContext& context_;
+  Result<StoredTile> stored(Segment& segment, std::uint32_t index,
+                            const std::vector<MappedLandmark>& landmarks) const;
+  LandmarkTile packed(const SegmentCut& segment, std::uint32_t index,
+                      const std::vector<MappedLandmark>& landmarks) const;
+
+  const StretchContext& context_;
   LandmarkLayerSettings settings_;
   LandmarkMapper mapper_;
-  LandmarkSelector selector_;
-  TileAssembler<MappedLandmark> assembler_;
+  std::vector<Segment> segments_;
 };
 
 }  // namespace milepost

@@ -12,10 +12,10 @@ constexpr std::size_t kSampledFrames = 16;  // some thousand descriptors for 128
 }  // namespace
 
 Result<PcaProjection> trained_projection(const std::vector<Drive>& drives,
-                                         const std::vector<SegmentPlan>& plans,
+                                         const std::vector<StretchPlan>& plans,
                                          const BuildSettings& settings, int jobs) {
   std::size_t total = 0;
-  for (const SegmentPlan& plan : plans) total += plan.frame_indices.size();
+  for (const StretchPlan& plan : plans) total += plan.frame_indices.size();
   const std::size_t every = std::max<std::size_t>(1, total / kSampledFrames);
 
   std::vector<Descriptor> descriptors;

@@ -3,15 +3,15 @@
 
 #include <vector>
 
-#include "mapper/pipeline/segment_plan.h"
 #include "mapper/pipeline/settings.h"
+#include "mapper/pipeline/stretch_plan.h"
 #include "schema/feature/pca_projection.h"
 
 namespace milepost {
 
 // Errors: those of FrameReader::gray.
 Result<PcaProjection> trained_projection(const std::vector<Drive>& drives,
-                                         const std::vector<SegmentPlan>& plans,
+                                         const std::vector<StretchPlan>& plans,
                                          const BuildSettings& settings, int jobs);
 
 }  // namespace milepost

@@ -22,7 +22,7 @@ constexpr double kTileLengthM = 20;
 constexpr std::size_t kFrames = 96;  // 187 m: the last tile's stretch is shorter
 
 struct MadeLayer {
-  double length_m = 0;
+  RouteLine line;
   std::vector<StoredTile> tiles;
 };
 
@@ -32,8 +32,8 @@ PcaProjection projection() {
   return PcaProjection::trained(descriptors, 0.02);
 }
 
-// The tiles of a street of 900 points, as they become complete.
-MadeLayer layer_of(double size_target_kb_per_m) {
+// The tiles of a street of 900 points, cut into segments there, as they become complete.
+MadeLayer layer_of(double size_target_kb_per_m, const std::vector<double>& cuts_m = {}) {
   MadeUpStreet street({.frames = kFrames,
                        .points = 900,
                        .mounting_deg = 1,
@@ -42,9 +42,18 @@ MadeLayer layer_of(double size_target_kb_per_m) {
                        .pixel_noise_px = 0.3});
   std::vector<GeoPoint> vertices;
   for (std::size_t i = 0; i < kFrames; ++i) vertices.push_back(street.frame(i).position);
-  const RouteLine line = RouteLine::from_vertices(std::move(vertices)).value();
+  RouteLine line = RouteLine::from_vertices(std::move(vertices)).value();
   const PcaProjection compact = projection();
-  const SegmentContext context{"s", kStreetCamera, line, compact, kTileLengthM};
+  std::vector<SegmentCut> segments;
+  double from_m = 0;
+  for (const double cut_m : cuts_m) {
+    segments.push_back({"to-" + std::to_string(std::lround(cut_m)),
+                        {from_m, cut_m},
+                        part_of(line, {from_m, cut_m})});
+    from_m = cut_m;
+  }
+  segments.push_back({"s", {from_m, line.length_m()}, part_of(line, {from_m, line.length_m()})});
+  const StretchContext context{kStreetCamera, segments, compact, kTileLengthM};
   LandmarkLayerSettings settings;
   settings.size_target_kb_per_m = size_target_kb_per_m;
   settings.landmarks.window_frames = 30;
@@ -59,7 +68,7 @@ MadeLayer layer_of(double size_target_kb_per_m) {
     const auto last = static_cast<std::size_t>(std::lround(track.back().along_m / kFrameSpacingM));
     ended[last + 1].push_back(std::move(track));
   }
-  MadeLayer made{line.length_m(), {}};
+  MadeLayer made{std::move(line), {}};
   for (std::size_t i = 0; i <= kFrames; ++i) {
     double complete_until_m = kEnd;
     if (i < kFrames) {
@@ -88,7 +97,8 @@ TEST(LandmarkLayerBuilder, NoTileWeighsMoreThanItsStretchMay) {
     ASSERT_GE(made.tiles.size(), 8U);
     double bytes = 0;
     for (const StoredTile& tile : made.tiles) {
-      const double stretch_m = std::min(kTileLengthM, made.length_m - tile.index * kTileLengthM);
+      const double stretch_m =
+          std::min(kTileLengthM, made.line.length_m() - tile.index * kTileLengthM);
       EXPECT_LE(static_cast<double>(tile.frame.size()), 1000 * target_kb_per_m * stretch_m)
           << tile.index;
       bytes += static_cast<double>(tile.frame.size());
@@ -152,6 +162,71 @@ TEST(LandmarkLayerBuilder, LandmarksLieInTheirTilesFrame) {
     }
   }
   EXPECT_GT(all, 200U);
+  EXPECT_GT(static_cast<double>(near), 0.8 * static_cast<double>(all));
+}
+
+// A cut takes nothing: each segment holds what is seen from it, also where a track began before it.
+TEST(LandmarkLayerBuilder, SegmentsHoldAsMuchAtTheirCutsAsTheUncutRoad) {
+  constexpr double kTargetKbPerM = 0.2;
+  const std::vector<double> cuts_m = {60, 130};
+  const MadeLayer whole = layer_of(kTargetKbPerM);
+  const MadeLayer cut = layer_of(kTargetKbPerM, cuts_m);
+  // Landmarks of a segment that begins at `from_m` that are seen at a place of the whole road.
+  const auto count_seen = [](const MadeLayer& made, const std::string& id, double from_m,
+                             double place_m) {
+    std::size_t seen = 0;
+    for (const StoredTile& tile : made.tiles) {
+      if (tile.segment != id) continue;
+      const LandmarkTile read = decode_landmarks(tile.frame).value();
+      for (const Landmark& landmark : read.landmarks)
+        seen += landmark.along.contains(place_m - from_m) ? 1U : 0U;
+    }
+    return static_cast<double>(seen);
+  };
+  const std::vector<std::tuple<std::string, double, double>> cuts = {
+      {"to-60", 0, 60}, {"to-130", 60, 130}, {"s", 130, cut.line.length_m()}};
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const auto& [id, from_m, to_m] = cuts[i];
+    SCOPED_TRACE(id);
+    for (const double place_m : {from_m + 2, from_m + 10, to_m - 30, to_m - 2}) {
+      const double whole_seen = count_seen(whole, "s", 0, place_m);
+      double seen = count_seen(cut, id, from_m, place_m);
+      EXPECT_GE(seen, 0.6 * whole_seen) << place_m;  // alone, for a start there
+      if (i > 0) {  // with what the segment before holds beyond its end
+        const auto& [before, before_from_m, before_to_m] = cuts[i - 1];
+        seen += count_seen(cut, before, before_from_m, place_m);
+      }
+      EXPECT_GE(seen, 0.9 * whole_seen) << place_m;
+    }
+  }
+}
+
+TEST(LandmarkLayerBuilder, TilesOfACutSegmentLieOnItsOwnLine) {
+  const MadeLayer made = layer_of(0.2, {60, 130});
+  MadeUpStreet street({.frames = kFrames, .points = 900, .pixel_noise_px = 0.3});
+  const RouteLine line = part_of(made.line, {60, 130});
+  std::size_t near = 0;
+  std::size_t all = 0;
+  std::uint32_t last_index = 0;
+  for (const StoredTile& tile : made.tiles) {
+    if (tile.segment != "to-130") continue;
+    const LandmarkTile read = decode_landmarks(tile.frame).value();
+    EXPECT_EQ(read.segment, "to-130");
+    last_index = tile.index;
+    const LocalFrame local(line.point_at(read.origin_m));
+    for (const Landmark& landmark : read.landmarks) {
+      EXPECT_GE(landmark.along.from_m, 0);
+      EXPECT_LT(landmark.along.from_m, 70.1);
+      const Eigen::Vector3d at = MadeUpStreet::enu_of(local.geo_from_enu(landmark.position));
+      const bool is_near =
+          std::any_of(street.points.begin(), street.points.end(),
+                      [&](const auto& point) { return (point.enu_m - at).norm() < 0.3; });
+      near += is_near ? 1U : 0U;
+      ++all;
+    }
+  }
+  EXPECT_EQ(last_index, 3U);  // of 70 m
+  EXPECT_GT(all, 100U);
   EXPECT_GT(static_cast<double>(near), 0.8 * static_cast<double>(all));
 }
 

@@ -34,7 +34,8 @@ RouteLine straight_line() {
 std::unique_ptr<LayerBuilder> builder_of(const Layer& layer) {
   static const RouteLine line = straight_line();
   static const PcaProjection projection = PcaProjection::trained({}, 0.02);
-  static const SegmentContext context{"s", {}, line, projection, 20};
+  static const std::vector<SegmentCut> segments = {{"s", {0, line.length_m()}, line}};
+  static const StretchContext context{{}, segments, projection, 20};
   return make_layer_builder(layer, context);
 }
 

@@ -39,9 +39,9 @@ Drive noise_drive(const std::filesystem::path& folder, const std::string& name, 
   return drive;
 }
 
-std::vector<SegmentPlan> plans_of(const std::vector<Drive>& drives) {
-  std::vector<SegmentPlan> plans;
-  for (const Drive& drive : drives) plans.push_back(plan_segment(drive, 0.3).value());
+std::vector<StretchPlan> plans_of(const std::vector<Drive>& drives) {
+  std::vector<StretchPlan> plans;
+  for (const Drive& drive : drives) plans.push_back(plan_stretch(drive, 0.3).value());
   return plans;
 }
 
