@@ -82,12 +82,12 @@ class LineLayer {
     }
     if (progress_m_ < settings_.min_frame_spacing_m) return;
     const bool reversed = rearmost_m_ < -settings_.min_reversing_m;
-    if (reversed) tell_reversing();
     if (reversed && !continues_line(i)) {
       start_again_at(rearmost_, i);
-    } else {
-      take(i);
+      return;
     }
+    if (reversed) tell_reversing();
+    take(i);
   }
 
   void take(std::size_t i) {

@@ -25,6 +25,11 @@ bool go_on(const std::vector<Place>& places, const std::vector<Place>& others) {
   });
 }
 
+bool holds_change(const std::vector<Change>& changes, const AlongRange& range) {
+  return std::ranges::any_of(
+      changes, [&](const Change& change) { return range.contains(change.place.along_m); });
+}
+
 void add_changes(std::size_t index, const Way& way, const CrossSections& sections,
                  const UTurnSettings& settings, std::vector<Change>& changes) {
   const std::size_t first_change = changes.size();
@@ -36,9 +41,13 @@ void add_changes(std::size_t index, const Way& way, const CrossSections& section
     if (!go_on(places, next) || !go_on(next, places)) changes.push_back({{index, along_m + 0.5}});
     places = std::move(next);
   }
+  const std::vector<Change> passes_change(
+      changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end());
   for (const AlongRange& arc : u_turns(way, settings)) {
-    changes.push_back({{index, arc.from_m}, true});
-    changes.push_back({{index, arc.to_m}, true});
+    const AlongRange before{arc.from_m - settings.max_approach_m, arc.from_m};
+    const AlongRange after{arc.to_m, arc.to_m + settings.max_approach_m};
+    if (!holds_change(passes_change, before)) changes.push_back({{index, arc.from_m}, true});
+    if (!holds_change(passes_change, after)) changes.push_back({{index, arc.to_m}, true});
   }
   changes.push_back({{index, way.length_m}});
   std::stable_sort(changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end(),

@@ -35,8 +35,10 @@ bool is_within(const Match& match, const RoadLimits& limits) {
 
 // A stretch of an alignment, by indices of its matches.
 struct Together {
-  std::size_t first = 0, last = 0;  // that are surely on one road
+  std::size_t first = 0, last = 0;
   double surely_m = 0;
+
+  double length_m() const { return static_cast<double>(last - first + 1); }
 };
 
 Alignment part_of(const Alignment& whole, const Together& part) {
@@ -48,24 +50,35 @@ Alignment part_of(const Alignment& whole, const Together& part) {
            begin + static_cast<std::ptrdiff_t>(part.last) + 1}};
 }
 
+// Where the ways may be together up to an end of the alignment, one of them ends there: they do not
+// part, so the stretch holds up to it.
 void add_stretches(const Alignment& alignment, const SameRoadSettings& settings,
                    std::vector<Alignment>& found) {
   const auto reach = static_cast<std::size_t>(settings.smooth_m / 2);
   std::optional<Together> open;
+  std::size_t may_since = 0;  // all from here to the current match may be together
   double gap_m = 0;
   const auto finish = [&] {
-    if (open && open->surely_m >= settings.min_length_m) found.push_back(part_of(alignment, *open));
+    const bool is_road = open && open->surely_m >= settings.min_surely_m &&
+                         open->surely_m >= settings.min_surely_part * open->length_m();
+    if (is_road) found.push_back(part_of(alignment, *open));
     open.reset();
   };
   for (std::size_t i = 0; i < alignment.matches.size(); ++i) {
     const Match match = smoothed(alignment.matches, i, reach);
-    gap_m = is_within(match, settings.may) ? 0 : gap_m + 1;
+    if (is_within(match, settings.may)) {
+      gap_m = 0;
+    } else {
+      ++gap_m;
+      may_since = i + 1;
+    }
     if (gap_m > settings.max_gap_m) finish();
     if (!is_within(match, settings.surely)) continue;
-    if (!open) open = Together{i, i, 0};
+    if (!open) open = Together{may_since == 0 ? 0 : i, i, 0};
     open->last = i;
     ++open->surely_m;
   }
+  if (open && may_since <= open->last) open->last = alignment.matches.size() - 1;
   finish();
 }
 

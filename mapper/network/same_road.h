@@ -16,13 +16,14 @@ struct RoadLimits {
 
 // Hysteresis with two limits, as by which Canny (1986) follows edges: a stretch of the same road
 // begins and ends where the ways are surely together, and holds in between while they may be.
-// The limits lie on either side of the middle between lanes up to 4 m wide and streets from 8 m
-// apart, so that a slow difference of 1.5 m between drives misleads neither.
+// Lanes are up to 4 m apart and parallel streets 8 m and more: a difference of 1.5 m between two
+// drives, or a bias of 2.5 m in one, misleads neither way.
 struct SameRoadSettings {
-  RoadLimits surely{5, 10, 2.5};
-  RoadLimits may{6.5, 45, 4};
-  double smooth_m = 10;      // distances and turns are means over this length
-  double min_length_m = 10;  // of all that is surely together in a stretch
+  RoadLimits surely{5.5, 10, 2.5};
+  RoadLimits may{7, 45, 4};
+  double smooth_m = 10;          // distances and turns are means over this length
+  double min_surely_m = 10;      // of a stretch ...
+  double min_surely_part = 0.5;  // ... and of its length
   double max_gap_m = 15;  // a stretch holds over a shorter part in which they may not be together
 };
 

@@ -239,7 +239,8 @@ std::vector<TrueSegment> DrawnRoads::true_segments(const std::vector<DrawnDrive>
     for (std::size_t i = 1; i + 1 < way.size(); ++i) {
       const double turn =
           turn_deg_at(place(way[i - 1].place), place(way[i].place), place(way[i + 1].place));
-      if (std::abs(turn) > kCornerDeg) corners.insert(way[i].place);
+      const bool turns = std::abs(turn) > kCornerDeg && std::abs(turn) < kTurnRoundDeg;
+      if (turns) corners.insert(way[i].place);
     }
   }
 
@@ -249,7 +250,8 @@ std::vector<TrueSegment> DrawnRoads::true_segments(const std::vector<DrawnDrive>
     Itinerary itinerary;
     const std::vector<Waypoint>& way = waypoints[drive];
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-      if (i > 0 && corners.contains(way[i].place)) {
+      const bool turns_round = i > 0 && way[i - 1].place == way[i + 1].place;
+      if (turns_round || (i > 0 && corners.contains(way[i].place))) {
         itinerary.push_back({way[i - 1].place, way[i].place, way[i + 1].place});
       }
       itinerary.push_back({way[i].place, way[i + 1].place});
@@ -273,17 +275,21 @@ std::vector<TrueSegment> DrawnRoads::true_segments(const std::vector<DrawnDrive>
                        !turns_round(next) && passes.at(next).size() == here.size();
     return joins ? next : Element();
   };
+  // How far from a place its turns begin and end.
+  const auto turn_reach_m = [&](const Element& element) {
+    return turns_round(element) ? 0 : scale_.corner_radius_m;
+  };
   const auto begin_of = [&](const Element& element) {
     const PlanPoint from = place(element[0]);
     const PlanPoint to = place(element[1]);
-    if (element.size() == 3) return to - scale_.corner_radius_m * direction(from, to);
+    if (element.size() == 3) return to - turn_reach_m(element) * direction(from, to);
     return corners.contains(element[0]) ? from + scale_.corner_radius_m * direction(from, to)
                                         : from;
   };
   const auto end_of = [&](const Element& element) {
     const PlanPoint from = place(element[element.size() - 2]);
     const PlanPoint to = place(element[element.size() - 1]);
-    if (element.size() == 3) return from + scale_.corner_radius_m * direction(from, to);
+    if (element.size() == 3) return from + turn_reach_m(element) * direction(from, to);
     return corners.contains(element[1]) ? to - scale_.corner_radius_m * direction(from, to) : to;
   };
 
