@@ -1,0 +1,206 @@
+#include "mapper/network/junctions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace milepost {
+namespace {
+
+constexpr double kSameVisitM = 20;  // a way's changes farther apart are of two visits to a junction
+
+// Where the set of passes changes, or must be taken to.
+struct Change {
+  Place place;
+  bool holds = false;
+};
+
+// Whether each place goes on as one of the others, a metre further.
+bool go_on(const std::vector<Place>& places, const std::vector<Place>& others) {
+  return std::ranges::all_of(places, [&](const Place& place) {
+    return std::ranges::any_of(others, [&](const Place& other) {
+      return other.way == place.way && std::abs(other.along_m - place.along_m) < kSameVisitM / 2;
+    });
+  });
+}
+
+bool holds_change(const std::vector<Change>& changes, const AlongRange& range) {
+  return std::ranges::any_of(
+      changes, [&](const Change& change) { return range.contains(change.place.along_m); });
+}
+
+void add_changes(std::size_t index, const Way& way, const CrossSections& sections,
+                 const UTurnSettings& settings, std::vector<Change>& changes) {
+  const std::size_t first_change = changes.size();
+  changes.push_back({{index, 0}});
+  std::vector<Place> places = sections.places({index, 0});
+  for (std::size_t i = 0; i + 1 < way.states.size(); ++i) {
+    const double along_m = static_cast<double>(i);
+    std::vector<Place> next = sections.places({index, along_m + 1});
+    if (!go_on(places, next) || !go_on(next, places)) changes.push_back({{index, along_m + 0.5}});
+    places = std::move(next);
+  }
+  const std::vector<Change> passes_change(
+      changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end());
+  for (const AlongRange& arc : u_turns(way, settings)) {
+    const AlongRange before{arc.from_m - settings.max_approach_m, arc.from_m};
+    const AlongRange after{arc.to_m, arc.to_m + settings.max_approach_m};
+    if (!holds_change(passes_change, before)) changes.push_back({{index, arc.from_m}, true});
+    if (!holds_change(passes_change, after)) changes.push_back({{index, arc.to_m}, true});
+  }
+  changes.push_back({{index, way.length_m}});
+  std::stable_sort(changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end(),
+                   [](const Change& a, const Change& b) { return a.place < b.place; });
+}
+
+// Two changes, by their indices, and how far apart they are along the road.
+struct Pair {
+  double apart_m = 0;
+  std::size_t a = 0, b = 0;
+
+  friend bool operator<(const Pair& x, const Pair& y) {
+    return std::tie(x.apart_m, x.a, x.b) < std::tie(y.apart_m, y.a, y.b);
+  }
+};
+
+// Groups changes on all ways into junctions: agglomerative clustering with complete linkage, so
+// that a row of changes does not grow into one junction. Ascending distance decides, not order.
+class JunctionClusters {
+ public:
+  JunctionClusters(std::vector<Change> changes, const CrossSections& sections, double radius_m)
+      : changes_(std::move(changes)), diameter_m_(2 * radius_m) {
+    clusters_.resize(changes_.size());
+    cluster_of_.resize(changes_.size());
+    std::iota(cluster_of_.begin(), cluster_of_.end(), std::size_t{0});
+    for (std::size_t i = 0; i < changes_.size(); ++i) clusters_[i] = {i};
+    for (const Pair& pair : pairs(sections)) {
+      unite(cluster_of_[pair.a], cluster_of_[pair.b]);
+    }
+  }
+
+  // One for each visit of a way to a junction.
+  std::vector<Change> means() const {
+    std::vector<Change> found;
+    for (const std::vector<std::size_t>& cluster : clusters_) {
+      for (std::size_t i = 0; i < cluster.size();) {
+        const std::size_t end = visit_end(cluster, i);
+        found.push_back(mean_of(cluster, i, end));
+        i = end;
+      }
+    }
+    return found;
+  }
+
+ private:
+  // Changes on one cross-section, or near it, as each of their ways measures it.
+  std::vector<Pair> pairs(const CrossSections& sections) const {
+    std::vector<Pair> found;
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      for (const double side_m : {-0.5, 0.5}) {
+        Place beside = changes_[i].place;
+        beside.along_m = std::max(0.0, beside.along_m + side_m);
+        for (Place place : sections.places(beside)) {
+          place.along_m -= side_m;
+          add_pairs(i, place, found);
+        }
+      }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  void add_pairs(std::size_t i, const Place& place, std::vector<Pair>& found) const {
+    const Place from{place.way, place.along_m - diameter_m_};
+    auto other = std::lower_bound(
+        changes_.begin(), changes_.end(), from,
+        [](const Change& change, const Place& wanted) { return change.place < wanted; });
+    for (; other != changes_.end() && other->place.way == place.way; ++other) {
+      const double apart_m = std::abs(other->place.along_m - place.along_m);
+      if (other->place.along_m > place.along_m + diameter_m_) break;
+      const auto j = static_cast<std::size_t>(other - changes_.begin());
+      if (j != i) found.push_back({apart_m, std::min(i, j), std::max(i, j)});
+    }
+  }
+
+  void unite(std::size_t a, std::size_t b) {
+    if (a == b) return;
+    std::vector<std::size_t> both;
+    std::ranges::merge(clusters_[a], clusters_[b], std::back_inserter(both));
+    if (!fits_a_junction(both)) return;
+    for (const std::size_t i : clusters_[b]) cluster_of_[i] = a;
+    clusters_[a] = std::move(both);
+    clusters_[b].clear();
+  }
+
+  bool fits_a_junction(const std::vector<std::size_t>& cluster) const {
+    for (std::size_t i = 0; i < cluster.size();) {
+      const std::size_t end = visit_end(cluster, i);
+      if (along_m(cluster[end - 1]) - along_m(cluster[i]) > diameter_m_) return false;
+      i = end;
+    }
+    return true;
+  }
+
+  // Changes are in the order of places, so those of one visit follow each other.
+  std::size_t visit_end(const std::vector<std::size_t>& cluster, std::size_t first) const {
+    std::size_t end = first + 1;
+    while (end < cluster.size() &&
+           changes_[cluster[end]].place.way == changes_[cluster[first]].place.way &&
+           along_m(cluster[end]) - along_m(cluster[end - 1]) < kSameVisitM) {
+      ++end;
+    }
+    return end;
+  }
+
+  Change mean_of(const std::vector<std::size_t>& cluster, std::size_t first,
+                 std::size_t end) const {
+    Change mean = changes_[cluster[first]];
+    double sum_m = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      sum_m += along_m(cluster[i]);
+      mean.holds = mean.holds || changes_[cluster[i]].holds;
+    }
+    mean.place.along_m = sum_m / static_cast<double>(end - first);
+    return mean;
+  }
+
+  double along_m(std::size_t change) const { return changes_[change].place.along_m; }
+
+  std::vector<Change> changes_;  // ordered by place
+  double diameter_m_;
+  std::vector<std::vector<std::size_t>> clusters_;  // of indices of changes, ascending
+  std::vector<std::size_t> cluster_of_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Cut>> junction_cuts(const std::vector<Way>& ways,
+                                            const CrossSections& sections,
+                                            const JunctionSettings& settings) {
+  std::vector<Change> changes;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    add_changes(i, ways[i], sections, settings.u_turn, changes);
+  }
+  std::vector<Change> means =
+      JunctionClusters(std::move(changes), sections, settings.radius_m).means();
+  std::stable_sort(means.begin(), means.end(),
+                   [](const Change& a, const Change& b) { return a.place < b.place; });
+  std::vector<std::vector<Cut>> cuts(ways.size());
+  for (const Change& mean : means) {
+    const Way& way = ways[mean.place.way];
+    const double on_drive_m = way.begin_m + mean.place.along_m;
+    const double along_m = std::round(on_drive_m / settings.grid_m) * settings.grid_m - way.begin_m;
+    if (along_m < settings.min_segment_m || along_m > way.length_m - settings.min_segment_m)
+      continue;
+    std::vector<Cut>& of_way = cuts[mean.place.way];
+    if (!of_way.empty() && of_way.back().along_m >= along_m) {
+      of_way.back().holds = of_way.back().holds || mean.holds;
+    } else {
+      of_way.push_back({along_m, mean.holds});
+    }
+  }
+  return cuts;
+}
+
+}  // namespace milepost

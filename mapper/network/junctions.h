@@ -1,0 +1,30 @@
+// Where ways are cut into segments: at the places where the set of passes changes.
+#pragma once
+
+#include <vector>
+
+#include "mapper/network/cross_sections.h"
+#include "mapper/network/u_turns.h"
+#include "mapper/network/way.h"
+
+namespace milepost {
+
+struct Cut {
+  double along_m = 0;
+  // Whether it stays though the same drives pass before and behind it: an end of a U-turn's arc.
+  bool holds = false;
+};
+
+struct JunctionSettings {
+  double radius_m = 4;       // changes within a junction's radius are one cut
+  double grid_m = 5;         // cuts lie at multiples of this along their drive's forward way
+  double min_segment_m = 5;  // a cut nearer to a way's end is left out
+  UTurnSettings u_turn;
+};
+
+// The cuts of each way, ascending, without its ends.
+std::vector<std::vector<Cut>> junction_cuts(const std::vector<Way>& ways,
+                                            const CrossSections& sections,
+                                            const JunctionSettings& settings);
+
+}  // namespace milepost

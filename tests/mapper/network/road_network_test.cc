@@ -1,0 +1,466 @@
+#include "mapper/network/road_network.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "schema/base/ids.h"
+#include "tests/mapper/network/drawn_roads.h"
+
+namespace milepost {
+namespace {
+
+using testing::DrawnDrive;
+using testing::DrawnRoads;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using testing::PlanPoint;
+using testing::PositionErrors;
+using testing::TrueSegment;
+
+NamedDrivenLines drawn_lines(const Drive& drive) { return driven_lines(drive, {}).value(); }
+
+// A network with the lines that it was made of.
+struct MadeNetwork {
+  std::vector<NamedDrivenLines> drives;
+  RoadNetwork network;
+
+  PassLine line(const NetworkSegment& segment) const {
+    const Pass& pass = segment.reference_pass();
+    return line_of(pass, drives[pass.drive].lines[pass.stretch].line);
+  }
+  std::vector<std::string> pass_names(const NetworkSegment& segment) const {
+    std::vector<std::string> names;
+    for (const Pass& pass : segment.passes) names.push_back(drives[pass.drive].name);
+    return names;
+  }
+};
+
+MadeNetwork network_of(std::vector<NamedDrivenLines> drives, const NetworkSettings& settings = {}) {
+  RoadNetwork network = road_network(drives, settings);
+  return {std::move(drives), std::move(network)};
+}
+
+MadeNetwork network_of(const DrawnRoads& roads, const std::vector<DrawnDrive>& drives,
+                       const PositionErrors& errors = {}) {
+  std::vector<NamedDrivenLines> lines;
+  for (const DrawnDrive& drive : drives) lines.push_back(drawn_lines(roads.drive(drive, errors)));
+  return network_of(std::move(lines));
+}
+
+// One line a segment: "a-0 [a b] 0,50 to 100,50 -> a-105".
+std::string text_of(const MadeNetwork& made) {
+  std::ostringstream text;
+  const auto add_point = [&](const GeoPoint& geo) {
+    const PlanPoint point = DrawnRoads::plan_of(geo);
+    text << std::lround(point.east_m) << ',' << std::lround(point.north_m);
+  };
+  for (const NetworkSegment& segment : made.network.segments) {
+    text << segment.id << " [";
+    for (const Pass& pass : segment.passes) {
+      text << ' ' << made.drives[pass.drive].name << ' ' << std::lround(pass.from_m) << ".."
+           << std::lround(pass.to_m);
+    }
+    text << " ] ";
+    const PassLine line = made.line(segment);
+    add_point(line.vertices.front());
+    text << " to ";
+    add_point(line.vertices.back());
+    text << " ->";
+    for (const std::string& id : segment.successors) text << ' ' << id;
+    text << '\n';
+  }
+  return text.str();
+}
+
+double distance_m(const PlanPoint& a, const GeoPoint& b) {
+  const PlanPoint plan = DrawnRoads::plan_of(b);
+  return std::hypot(a.east_m - plan.east_m, a.north_m - plan.north_m);
+}
+
+// Holds a network against the true graph: segments, their passes, ends, links and ids.
+void expect_as_drawn(const MadeNetwork& made, const std::vector<TrueSegment>& truth,
+                     double tolerance_m = 12) {
+  SCOPED_TRACE(text_of(made));
+  const std::vector<NetworkSegment>& segments = made.network.segments;
+  EXPECT_EQ(segments.size(), truth.size());
+  std::vector<std::string> id_of(truth.size(), "none");
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    for (const NetworkSegment& segment : segments) {
+      const PassLine line = made.line(segment);
+      const bool fits = made.pass_names(segment) == truth[i].passes &&
+                        distance_m(truth[i].begin, line.vertices.front()) < tolerance_m &&
+                        distance_m(truth[i].end, line.vertices.back()) < tolerance_m;
+      if (fits) id_of[i] = segment.id;
+    }
+    EXPECT_TRUE(ids.insert(id_of[i]).second);
+    EXPECT_NE(id_of[i], "none") << "no segment from " << truth[i].begin.east_m << ','
+                                << truth[i].begin.north_m << " to " << truth[i].end.east_m << ','
+                                << truth[i].end.north_m << " passed by "
+                                << ::testing::PrintToString(truth[i].passes);
+  }
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const auto segment = std::ranges::find(segments, id_of[i], &NetworkSegment::id);
+    if (segment == segments.end()) continue;
+    std::set<std::string> successors;
+    for (const std::size_t next : truth[i].successors) successors.insert(id_of[next]);
+    EXPECT_EQ(std::set<std::string>(segment->successors.begin(), segment->successors.end()),
+              successors)
+        << "after " << id_of[i];
+    EXPECT_TRUE(segment->id.starts_with(truth[i].passes.front() + "-")) << segment->id;
+    EXPECT_TRUE(is_segment_id(segment->id));
+  }
+}
+
+// As drawn: with exact positions, with noise, and with noise and drift, in any order of drives.
+void expect_as_drawn(const std::string& drawing, std::vector<DrawnDrive> drives,
+                     std::size_t segments, double tolerance_m = 12) {
+  const DrawnRoads roads(drawing);
+  const std::vector<TrueSegment> truth = roads.true_segments(drives);
+  EXPECT_EQ(truth.size(), segments) << "the drawing says otherwise";
+  expect_as_drawn(network_of(roads, drives), truth, tolerance_m);
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const PositionErrors white{.white_m = 0.3, .heading_deg = 1, .seed = seed};
+    expect_as_drawn(network_of(roads, drives, white), truth, tolerance_m);
+    const PositionErrors slow{.white_m = 0.3, .slow_m = 0.7, .heading_deg = 1, .seed = seed};
+    expect_as_drawn(network_of(roads, drives, slow), truth, tolerance_m);
+  }
+  const auto by_name = [](const DrawnDrive& a, const DrawnDrive& b) { return a.name < b.name; };
+  std::sort(drives.begin(), drives.end(), by_name);
+  const PositionErrors errors{.white_m = 0.3, .slow_m = 0.7, .heading_deg = 1, .seed = 9};
+  const std::string in_order = text_of(network_of(roads, drives, errors));
+  while (std::next_permutation(drives.begin(), drives.end(), by_name)) {
+    EXPECT_EQ(text_of(network_of(roads, drives, errors)), in_order);
+  }
+}
+
+TEST(RoadNetwork, OneDriveIsOneSegment) {
+  expect_as_drawn("w-----------------------------e", {{"a", "w e"}}, 1);
+}
+
+TEST(RoadNetwork, TwoDrivesOnOneRoadAreOneSegment) {
+  expect_as_drawn("w-----------------------------e", {{"a", "w e"}, {"b", "w e"}}, 1);
+}
+
+TEST(RoadNetwork, PartsThatOneDriveAlonePassedAreSegments) {
+  expect_as_drawn("w---------x-------------y-----------e",
+                  {{"a", "w x y"}, {"b", "x y e"}, {"c", "w x y e"}}, 3);
+}
+
+TEST(RoadNetwork, NeighbouringLanesAreOneRoad) {
+  expect_as_drawn("w----------x---------y----------e",
+                  {{"a", "w x y e"}, {"b", "w:2 x y e"}, {"c", "w x:2 y:1 e"}}, 1);
+}
+
+TEST(RoadNetwork, OppositeDirectionsAreTwo) {
+  expect_as_drawn("w-----------------------------e", {{"a", "w e"}, {"b", "e w"}}, 2);
+}
+
+TEST(RoadNetwork, Split) {
+  expect_as_drawn(R"(
+                            .---n
+                        .---
+    w------------------x--------------e)",
+                  {{"a", "w x e"}, {"b", "w x n"}}, 3, 20);
+}
+
+TEST(RoadNetwork, Join) {
+  expect_as_drawn(R"(
+    n---.
+         ---.
+    w------------x--------------------e)",
+                  {{"a", "w x e"}, {"b", "n x e"}}, 3, 20);
+}
+
+TEST(RoadNetwork, TJunction) {
+  expect_as_drawn(R"(
+    w----------------x----------------e
+                     |
+                     |
+                     |
+                     |
+                     |
+                     |
+                     s)",
+                  {{"a", "w x e"}, {"b", "w x s"}, {"c", "s x e"}, {"d", "e x w"}, {"f", "e x s"}},
+                  9);
+}
+
+constexpr const char* kCrossing = R"(
+                     n
+                     |
+                     |
+                     |
+                     |
+                     |
+                     |
+    w----------------x----------------e
+                     |
+                     |
+                     |
+                     |
+                     |
+                     |
+                     s)";
+
+TEST(RoadNetwork, RoadsThatCrossAreNotLinked) {
+  expect_as_drawn(kCrossing, {{"a", "w x e"}, {"b", "s x n"}}, 2);
+}
+
+TEST(RoadNetwork, Crossing) {
+  expect_as_drawn(kCrossing, {{"a", "s x n"}, {"b", "s x e"}, {"c", "w x e"}, {"d", "w x n"}}, 8);
+}
+
+TEST(RoadNetwork, CrossingWithAllTurns) {
+  expect_as_drawn(kCrossing,
+                  {{"a", "s x n"}, {"b", "s x e"}, {"c", "s x w"}, {"d", "e x w"}, {"f", "n x e"}},
+                  8);
+}
+
+TEST(RoadNetwork, ExitWithAPartingLane) {
+  expect_as_drawn(R"(
+    w----------x---------y----------------------e
+                             .
+                                 .
+                                      .---s)",
+                  {{"a", "w x y e"}, {"b", "w:2 x y e"}, {"c", "w:2 x:3 y s"}}, 3, 30);
+}
+
+TEST(RoadNetwork, Roundabout) {
+  // Rings turn to the left. Entries and exits are 12 m apart on it.
+  expect_as_drawn(R"(
+                     n
+                     |
+                     |
+                     |
+                     |
+                     i
+                 j       h
+
+     w----------k         g----------e
+
+                 a       d
+                     c
+                     |
+                     |
+                     |
+                     |
+                     s)",
+                  {{"1", "s c d g e"}, {"2", "s c d g h i n"}, {"3", "w k a c d g e"}}, 5, 14);
+}
+
+TEST(RoadNetwork, RoundaboutDrivenOneAndAQuarterTimes) {
+  expect_as_drawn(R"(
+                     n
+                     |
+                     |
+                     |
+                     |
+                     i
+                 j       h
+
+     w----------k         g----------e
+
+                 a       d
+                     c
+                     |
+                     |
+                     |
+                     |
+                     s)",
+                  {{"1", "s c d g h i j k a c d g e"}}, 4, 14);
+}
+
+TEST(RoadNetwork, BridgeOverRoadIsNoJunction) {
+  expect_as_drawn(kCrossing, {{"a", "s x n", 6}, {"b", "w x e"}, {"c", "s x n", 6}}, 2);
+}
+
+TEST(RoadNetwork, ParallelOneWayStreets) {
+  expect_as_drawn(R"(
+    n------------------------------------------m
+    w------------------------------------------e)",
+                  {{"a", "w e"}, {"b", "n m"}, {"c", "w e"}}, 2);
+}
+
+TEST(RoadNetwork, DualCarriageway) {
+  expect_as_drawn(R"(
+    n------------------------------------------m
+    w------------------------------------------e)",
+                  {{"a", "w:1 e"}, {"b", "m n"}, {"c", "w:2 e"}, {"d", "m:2 n"}}, 2);
+}
+
+TEST(RoadNetwork, DeadEndWithUTurn) {
+  expect_as_drawn("w---------------x---------------------d", {{"a", "w x d x w"}}, 3);
+  expect_as_drawn("w---------------x---------------------d",
+                  {{"a", "w x d x w"}, {"b", "w x d x w"}}, 3);
+}
+
+TEST(RoadNetwork, UTurnsAtTwoPlaces) {
+  expect_as_drawn("w---------------x---------------------d", {{"a", "w x d x w"}, {"b", "w x w"}},
+                  6, 16);
+}
+
+TEST(RoadNetwork, Loop) {
+  const char* loop = R"(
+    w----------a-----m------b
+               |            |
+               |            |
+               |            |
+               |            |
+               |            |
+               |            |
+               |            |
+               d------------c)";
+  expect_as_drawn(loop, {{"1", "w a m b c d a m"}}, 3);
+  expect_as_drawn(loop, {{"1", "m b c d a m"}}, 1);
+  expect_as_drawn(loop, {{"1", "m b c d a m b c d a m"}}, 1);  // follows itself
+}
+
+TEST(RoadNetwork, LeftTurnAcrossTheOwnLane) {
+  const char* drawing = R"(
+                     n
+                     |
+                     |
+                     |
+                     |
+    w----------------x--------------a
+                     |              |
+                     |              |
+                     |              |
+                     |              |
+                     |              |
+                     |              |
+                     s--------------b)";
+  expect_as_drawn(drawing, {{"1", "w x a b s x n"}}, 1);
+  expect_as_drawn(drawing, {{"1", "w x a b s x w"}}, 1);
+}
+
+// A street passed in lane 1, lane 2 and from lane 2 onto a ramp; lane 3 is 7 m from lane 1.
+TEST(RoadNetwork, ChainOfLanesDoesNotHoldAPartingRamp) {
+  expect_as_drawn(R"(
+    w----------x---------y----------------------e
+                             .
+                                 .
+                                      .---s)",
+                  {{"1", "w x y e"}, {"2", "w:2 x y e"}, {"3", "w:2 x y s"}, {"4", "w:2 x:3 y s"}},
+                  3, 30);
+}
+
+TEST(RoadNetwork, ABiasDoesNotJoinParallelStreets) {
+  const DrawnRoads roads(R"(
+    n------------------------------------------m
+    w------------------------------------------e)");
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    std::vector<NamedDrivenLines> drives;
+    for (const auto& [name, way, right_m] :
+         {std::tuple{"a", "w e", 0.0}, {"b", "w e", -1.5}, {"c", "n m", 0.0}, {"d", "n m", 0.0}}) {
+      drives.push_back(drawn_lines(roads.drive(
+          {name, way}, {.white_m = 0.3, .slow_m = 0.3, .right_m = right_m, .seed = seed})));
+    }
+    const MadeNetwork made = network_of(std::move(drives));
+    EXPECT_EQ(made.network.segments.size(), 2U) << text_of(made);
+  }
+}
+
+TEST(RoadNetwork, WeavingLanesAreOneRoad) {
+  expect_as_drawn(
+      "w-------p-------q-------r-------s-------t-------e",
+      {{"a", "w p:2 q:1 r:2 s:1 t e"}, {"b", "w:2 p:1 q:2 r s:1 t e"}, {"c", "w p q r s t:2 e"}},
+      1);
+}
+
+// Whether a drive passes a part of an old segment, by a network that has both.
+bool overlaps(const MadeNetwork& made, const std::string& drive, const MadeNetwork& old,
+              const NetworkSegment& old_segment) {
+  for (const NetworkSegment& segment : made.network.segments) {
+    const std::vector<std::string> names = made.pass_names(segment);
+    if (std::ranges::count(names, drive) == 0) continue;
+    for (const Pass& pass : segment.passes) {
+      for (const Pass& old_pass : old_segment.passes) {
+        const double common_m =
+            std::min(pass.to_m, old_pass.to_m) - std::max(pass.from_m, old_pass.from_m);
+        if (made.drives[pass.drive].name == old.drives[old_pass.drive].name && common_m > 0) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+TEST(RoadNetwork, ANewDriveChangesOnlySegmentsThatItPasses) {
+  const DrawnRoads roads(kCrossing);
+  const std::vector<DrawnDrive> drives = {
+      {"a", "s x n"}, {"b", "s x e"}, {"c", "w x e"}, {"d", "w x n"}, {"f", "n x w"}};
+  std::size_t kept = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const PositionErrors errors{.white_m = 0.3, .slow_m = 0.7, .heading_deg = 1, .seed = seed};
+    const MadeNetwork all = network_of(roads, drives, errors);
+    std::set<std::string> ids;
+    for (const NetworkSegment& segment : all.network.segments) ids.insert(segment.id);
+    for (const DrawnDrive& added : drives) {
+      std::vector<DrawnDrive> others;
+      std::ranges::copy_if(drives, std::back_inserter(others),
+                           [&](const DrawnDrive& drive) { return drive.name != added.name; });
+      const MadeNetwork before = network_of(roads, others, errors);
+      for (const NetworkSegment& segment : before.network.segments) {
+        if (overlaps(all, added.name, before, segment)) continue;
+        ++kept;
+        EXPECT_TRUE(ids.contains(segment.id)) << segment.id << " without " << added.name << ":\n"
+                                              << text_of(before) << "and with it:\n"
+                                              << text_of(all);
+      }
+    }
+  }
+  EXPECT_GE(kept, 100U);
+}
+
+TEST(RoadNetwork, ADriveElsewhereChangesNothing) {
+  const DrawnRoads roads(R"(
+    w------------------x--------------e
+                       |
+                       |
+                       s
+
+                                              n----------------------m)");
+  const std::vector<DrawnDrive> drives = {{"b", "w x e"}, {"c", "w x s"}};
+  const PositionErrors errors{.white_m = 0.3, .slow_m = 0.7, .heading_deg = 1};
+  const std::string before = text_of(network_of(roads, drives, errors));
+  const std::string after =
+      text_of(network_of(roads, {drives[0], drives[1], {"a", "n m"}}, errors));
+  EXPECT_THAT(after, ::testing::EndsWith(before));
+  EXPECT_THAT(after, ::testing::StartsWith("a-0 "));
+}
+
+TEST(RoadNetwork, IdsAreValidAndTellDrivesApart) {
+  EXPECT_EQ(segment_id_of("morning", 135), "morning-135");
+  const std::string long_name(64, 'x');
+  EXPECT_TRUE(is_segment_id(segment_id_of(long_name, 12345)));
+  EXPECT_NE(segment_id_of(long_name, 5), segment_id_of(long_name.substr(1) + "y", 5));
+}
+
+TEST(RoadNetwork, ALineBeginsAndEndsAtItsCuts) {
+  const DrawnRoads roads("w-----------------------------e");
+  const NamedDrivenLines drive = drawn_lines(roads.drive({"a", "w e"}));
+  const RouteLine& driven = drive.lines[0].line;
+  const PassLine line = line_of({0, 0, 20, 45}, driven);
+  EXPECT_EQ(line.vertices.front(), driven.point_at(20));
+  EXPECT_EQ(line.vertices.back(), driven.point_at(45));
+  EXPECT_EQ(line.along_m.front(), 0);
+  EXPECT_DOUBLE_EQ(line.along_m.back(), 25);
+  EXPECT_EQ(line.vertices.size(), line.along_m.size());
+  EXPECT_EQ(line.vertices.size(), 2U + 12);
+  for (std::size_t i = 1; i < line.vertices.size(); ++i) {
+    EXPECT_NEAR(geodesic_distance_m(line.vertices[i - 1], line.vertices[i]),
+                line.along_m[i] - line.along_m[i - 1], 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace milepost
