@@ -3,11 +3,13 @@
 -- is set aside as a damaged one is, and a new one is begun.
 
 PRAGMA application_id = 1297108785;  -- 0x4D504F31, "MPO1"
-PRAGMA user_version = 2;             -- of this layout; 1 had times of the clock for uses
+PRAGMA user_version = 3;             -- of this layout; 2 had documents that no build covered
 
 -- Tiles and cells as the server stores them, and the documents that tell which there are.
 -- A cell has segment '' and its number in the grid. A document has layer '': a segment's has number
--- 0; the map's has segment '' and number 0; the index of the map's cells has segment '' and number 1.
+-- 0; the map's has segment '' and number 0; the index of the map's cells has segment '' and number
+-- 1; the manifest has segment '' and number 2. Of a tile or a document the reader knows the digest:
+-- the build for the manifest, which lists those of the documents, which list those of the tiles.
 CREATE TABLE entries (
   id       INTEGER PRIMARY KEY,
   map      TEXT NOT NULL,
@@ -15,7 +17,7 @@ CREATE TABLE entries (
   segment  TEXT NOT NULL,
   layer    TEXT NOT NULL,
   number   INTEGER NOT NULL,   -- the tile's index, or the cell's number
-  digest   TEXT NOT NULL,      -- of the content, checked whenever it is read
+  digest   TEXT NOT NULL,      -- of the content, to find damage; not relied upon
   bytes    INTEGER NOT NULL,   -- length of the content
   last_use INTEGER NOT NULL,   -- uses are numbered: each gets one more than the greatest here
   content  BLOB NOT NULL,

@@ -1,9 +1,9 @@
 -- The tables of a map file (FORMAT.md 2). The library runs this very text to make one.
 
 PRAGMA application_id = 1297108273;  -- 0x4D504D31, "MPM1"
-PRAGMA user_version = 2;             -- of the format
+PRAGMA user_version = 3;             -- of the format
 
--- build, feature, west_deg, south_deg, east_deg, north_deg
+-- build, manifest, feature, west_deg, south_deg, east_deg, north_deg
 CREATE TABLE meta (
   key   TEXT PRIMARY KEY,
   value ANY NOT NULL
@@ -15,8 +15,11 @@ CREATE TABLE layers (
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE segments (
-  id       TEXT PRIMARY KEY,
-  length_m REAL NOT NULL CHECK (length_m >= 0)
+  id                     TEXT PRIMARY KEY,
+  length_m               REAL NOT NULL CHECK (length_m >= 0),
+  position_sigma_m       REAL,             -- of the map's own position error; NULL: unknown
+  position_correlation_m REAL,             -- likewise
+  assumed                INTEGER NOT NULL  -- 1: these two are assumed, not measured
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE vertices (
@@ -32,7 +35,18 @@ CREATE TABLE vertices (
 CREATE TABLE successors (
   segment   TEXT NOT NULL REFERENCES segments (id),
   position  INTEGER NOT NULL,  -- 0, 1, 2, ...
-  successor TEXT NOT NULL,     -- a segment's id, of this map or of another
+  map       TEXT NOT NULL,     -- the neighbour map's name; '': this map
+  successor TEXT NOT NULL,     -- a segment's id in that map
+  PRIMARY KEY (segment, position)
+) STRICT, WITHOUT ROWID;
+
+-- The drives that passed a segment.
+CREATE TABLE passes (
+  segment  TEXT NOT NULL REFERENCES segments (id),
+  position INTEGER NOT NULL,  -- 0, 1, 2, ...
+  drive    TEXT NOT NULL,     -- its name
+  from_m   REAL NOT NULL,     -- arc length along the drive where the segment begins
+  to_m     REAL NOT NULL,     -- ... and where it ends
   PRIMARY KEY (segment, position)
 ) STRICT, WITHOUT ROWID;
 
@@ -54,17 +68,6 @@ CREATE TABLE tiles (
   digest  TEXT NOT NULL,                        -- of the frame
   frame   INTEGER NOT NULL UNIQUE REFERENCES frames (id),
   PRIMARY KEY (segment, layer, number)
-) STRICT, WITHOUT ROWID;
-
-CREATE INDEX tiles_by_from ON tiles (segment, layer, from_m, to_m);
-
--- The longest tile of each layer of a segment. Tiles overlap; no tile that begins more than this
--- before a range reaches into it, so that a range is found by a short walk through tiles_by_from.
-CREATE TABLE spans (
-  segment   TEXT NOT NULL REFERENCES segments (id),
-  layer     TEXT NOT NULL REFERENCES layers (name),
-  longest_m REAL NOT NULL,  -- largest to_m - from_m
-  PRIMARY KEY (segment, layer)
 ) STRICT, WITHOUT ROWID;
 
 -- The index of the cells: tiles of an area, by the grid of FORMAT.md 6.1.

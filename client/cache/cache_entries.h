@@ -29,6 +29,10 @@ struct CacheKey {
   static CacheKey areas_document(std::string map, std::string build) {
     return {std::move(map), std::move(build), "", "", 1};
   }
+  // What the build's digest covers.
+  static CacheKey manifest(std::string map, std::string build) {
+    return {std::move(map), std::move(build), "", "", 2};
+  }
   static CacheKey segment_document(std::string map, std::string build, std::string segment) {
     return {std::move(map), std::move(build), std::move(segment), "", 0};
   }

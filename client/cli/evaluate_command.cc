@@ -1,11 +1,13 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "client/cli/commands.h"
 #include "client/cli/source_options.h"
 #include "client/evaluate/baselines/methods.h"
+#include "client/evaluate/drive_playback.h"
 #include "client/evaluate/estimates.h"
 #include "client/evaluate/output.h"
 #include "client/evaluate/replay.h"
@@ -21,9 +23,12 @@ constexpr const char* kEvaluateDescription =
 
 Writes summary.json, fixes-METHOD.csv and report.html into the output folder.
 fixes-METHOD.csv has the columns of localize up to latency_ms; then truth_along_m, error_m, lateral_m,
-heading_deg, lateral_sigma_m, truth_lateral_m, lateral_error_m and heading_error_deg.
-An error is the fix minus the truth. Arc length and lateral offset are relative to the segment's
-line, lateral positive to the right; the true heading is the recorded one.
+heading_deg, lateral_sigma_m, truth_lateral_m, lateral_error_m, heading_error_deg, truth_segment and
+distance_m (in plan, from the recorded position to the fix).
+An error is the fix minus the truth: the nearest point of the segments that the recorded position,
+heading and altitude belong to. Arc length and lateral offset are relative to the segment's line,
+lateral positive to the right; the true heading is the recorded one. A fix on another road is wrong
+by its distance.
 Example: milepost-client evaluate --map maps/town.map --drive drives/tuesday --out results \
            --method tracklet-regression-kalman milepost)";
 
@@ -31,6 +36,7 @@ struct EvaluateOptions {
   SourceOptions map;
   std::string drive;
   std::string out;
+  std::optional<double> receiver_until_s;
   std::vector<std::string> methods = {kDefaultMethod};
   bool estimates = false;
 };
@@ -147,8 +153,9 @@ Result<Replay> replay_with_progress(const Drive& drive, const std::shared_ptr<Ma
 int evaluate(const std::string& program, const EvaluateOptions& options) {
   const Result<std::vector<Method>> methods = methods_named(options.methods);
   if (!methods) return fail(program, methods.error());
-  const Result<Drive> drive = read_drive(options.drive);
+  Result<Drive> drive = read_drive(options.drive);
   if (!drive) return fail(program, drive.error());
+  if (options.receiver_until_s) ignore_receiver_after(*drive, *options.receiver_until_s);
   if (const Status prepared = prepare_outputs(options, *drive); !prepared) {
     return fail(program, prepared.error());
   }
@@ -189,6 +196,7 @@ RunCommand add_evaluate(CLI::App& app) {
   app.add_option("--drive", options->drive, "Folder of the drive to localize")
       ->required()
       ->option_text("DIR");
+  add_receiver_option(app, options->receiver_until_s);
   app.add_option("--out", options->out,
                  "Folder to write to, created if missing; earlier results are replaced")
       ->required()

@@ -1,8 +1,10 @@
 #include <iostream>
+#include <optional>
 
 #include "client/cli/commands.h"
 #include "client/cli/source_options.h"
 #include "client/evaluate/baselines/methods.h"
+#include "client/evaluate/drive_playback.h"
 #include "client/evaluate/output.h"
 #include "client/evaluate/replay.h"
 #include "schema/base/file.h"
@@ -19,7 +21,8 @@ Columns: timestamp_s, filename, status, segment, along_m, sigma_m, latitude_deg,
 matches, latency_ms, lateral_m (from the segment's line, positive to the right), heading_deg (of the
 camera, clockwise from north) and lateral_sigma_m; the last three are empty where the method does
 not estimate them. Latitude and longitude are the camera's where lateral_m is given, otherwise those
-of along_m on the segment's line.
+of along_m on the segment's line; off the map they are where the motion carries the camera, with the
+deviation in plan as sigma_m, while that is below 30 m.
 Example: milepost-client localize --server http://localhost:8080 --cache cache \
            --drive drives/tuesday --out fixes.csv)";
 
@@ -27,6 +30,7 @@ struct LocalizeOptions {
   SourceOptions map;
   std::string drive;
   std::string out;
+  std::optional<double> receiver_until_s;
   std::string method = kDefaultMethod;
 };
 
@@ -40,8 +44,9 @@ std::string summary_line(const std::vector<FrameFix>& fixes, const std::string& 
 int localize(const std::string& program, const LocalizeOptions& options) {
   const Result<Method> method = method_named(options.method);
   if (!method) return fail(program, method.error());
-  const Result<Drive> drive = read_drive(options.drive);
+  Result<Drive> drive = read_drive(options.drive);
   if (!drive) return fail(program, drive.error());
+  if (options.receiver_until_s) ignore_receiver_after(*drive, *options.receiver_until_s);
   if (const Status free =
           check_outputs({{"--out", options.out, &kFixesOutput}}, inputs_of(*drive, options.map));
       !free) {
@@ -74,6 +79,7 @@ RunCommand add_localize(CLI::App& app) {
   app.add_option("--drive", options->drive, "Folder of the drive to localize")
       ->required()
       ->option_text("DIR");
+  add_receiver_option(app, options->receiver_until_s);
   app.add_option("--out", options->out, "File to write the fixes to; old fixes are replaced")
       ->required()
       ->option_text("FILE");

@@ -31,6 +31,13 @@ void require_source(const SourceOptions& options) {
   }
 }
 
+void add_receiver_option(CLI::App& app, std::optional<double>& until_s) {
+  app.add_option("--receiver-until-s", until_s,
+                 "Ignore rows of gps.csv later than this after the first frame")
+      ->check(CLI::Range(0.0, 1e9).description(""))
+      ->option_text("S");
+}
+
 std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOptions& options) {
   std::vector<std::filesystem::path> inputs = files_of(drive);
   if (!options.map.empty()) inputs.emplace_back(options.map);

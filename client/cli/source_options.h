@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ void add_source_options(CLI::App& app, SourceOptions& options);
 
 // Throws: CLI::RequiredError if neither a server nor a map file was given.
 void require_source(const SourceOptions& options);
+
+// --receiver-until-s, of commands that replay a drive.
+void add_receiver_option(CLI::App& app, std::optional<double>& until_s);
 
 // The files read by a command that replays a drive on a map.
 std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOptions& options);

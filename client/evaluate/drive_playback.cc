@@ -28,6 +28,11 @@ std::span<const Odometry> SensorLog::odometry_until(double timestamp_s) {
   return taken_until(timestamp_s, odometry_);
 }
 
+void ignore_receiver_after(Drive& drive, double after_s) {
+  const double last_s = drive.frames.front().timestamp_s + after_s + kClockRoundingS;
+  std::erase_if(drive.gps, [&](const GpsFix& reading) { return reading.timestamp_s > last_s; });
+}
+
 Fix fix_without_map(double timestamp_s, bool had_fix) {
   Fix fix;
   fix.timestamp_s = timestamp_s;

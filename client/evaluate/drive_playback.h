@@ -24,6 +24,9 @@ class SensorLog {
   std::span<const Odometry> odometry_;
 };
 
+// Removes the GNSS readings later than `after_s` seconds after the first frame, as in a tunnel.
+void ignore_receiver_after(Drive& drive, double after_s);
+
 // The fix of a frame whose map data did not arrive.
 Fix fix_without_map(double timestamp_s, bool had_fix);
 

@@ -2,57 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <set>
 
+#include "client/evaluate/road_truth.h"
 #include "client/evaluate/statistics.h"
 #include "schema/geo/route_line.h"
 
 namespace milepost {
 namespace {
-
-constexpr double kTruthRadiusM = 50;  // of a frame without a fix, to the nearest segment
-
-struct SegmentName {
-  MapVersion version;
-  std::string id;
-
-  friend bool operator<(const SegmentName& a, const SegmentName& b) {
-    return std::tie(a.version.map, a.version.build, a.id) <
-           std::tie(b.version.map, b.version.build, b.id);
-  }
-};
-
-// The lines of the segments used, each read once.
-class Lines {
- public:
-  explicit Lines(MapSource& source) : source_(source) {}
-
-  Result<const RouteLine*> of(const SegmentName& name) {
-    const auto known = lines_.find(name);
-    if (known != lines_.end()) return &known->second;
-    const Result<SegmentDescription> segment = source_.segment(name.version, name.id);
-    if (!segment) return segment.error();
-    Result<RouteLine> line = RouteLine::from_vertices(segment->vertices);
-    if (!line) return line.error();
-    return &lines_.emplace(name, std::move(*line)).first->second;
-  }
-
- private:
-  MapSource& source_;
-  std::map<SegmentName, RouteLine> lines_;
-};
-
-// The segment for a frame's ground truth: its fix's, or the nearest one.
-Result<std::optional<SegmentName>> segment_for_truth(const Fix& fix, const GeoPoint& position,
-                                                     MapSource& source) {
-  if (fix.along_m) return std::optional(SegmentName{fix.version, fix.segment});
-  const auto near = source.segments_near(position, kTruthRadiusM);
-  if (!near) return near.error();
-  if (near->empty()) return std::optional<SegmentName>();
-  return std::optional(SegmentName{near->front().version, near->front().segment});
-}
 
 void summarize_errors(const std::vector<EvaluatedFix>& fixes, Summary& summary) {
   std::vector<double> errors_m;
@@ -110,14 +67,14 @@ void summarize_latency(const std::vector<EvaluatedFix>& fixes, Summary& summary)
   summary.latency_ms_p99 = quantile(latencies_ms, 0.99);
 }
 
-Result<double> map_kb_per_m(const std::set<SegmentName>& driven, const std::string& layer,
-                            Lines& lines, MapSource& source) {
+Result<double> map_kb_per_m(const std::set<SegmentKey>& driven, const std::string& layer,
+                            RoadTruth& truth, MapSource& source) {
   double bytes = 0;
   double length_m = 0;
-  for (const SegmentName& name : driven) {
-    const Result<std::uint64_t> of_segment = source.layer_bytes(name.version, name.id, layer);
+  for (const SegmentKey& key : driven) {
+    const Result<std::uint64_t> of_segment = source.layer_bytes(key.version, key.segment, layer);
     if (!of_segment) return of_segment.error();
-    const Result<const RouteLine*> line = lines.of(name);
+    const Result<const RouteLine*> line = truth.line_of(key);
     if (!line) return line.error();
     bytes += static_cast<double>(*of_segment);
     length_m += (*line)->length_m();
@@ -125,15 +82,36 @@ Result<double> map_kb_per_m(const std::set<SegmentName>& driven, const std::stri
   return bytes / 1000 / length_m;
 }
 
-// Sets the ground truth relative to the line of the segment, and the errors of the fix.
-void compare(const Frame& frame, const RouteLine& line, EvaluatedFix& evaluated) {
+// How far a fix is ahead of the recorded position, in the recorded direction.
+double ahead_m(const Frame& frame, const GeoPoint& fixed) {
+  const EnuPoint off = LocalFrame(frame.position).enu_from_geo(fixed);
+  const double heading_rad = frame.heading_deg * kRadPerDeg;
+  return off.east_m * std::sin(heading_rad) + off.north_m * std::cos(heading_rad);
+}
+
+// Sets the ground truth, and the errors of the fix. A fix on a neighbouring segment is compared in
+// plan, along the recorded direction; on a wrong road its error is the distance.
+void compare(const Frame& frame, const std::optional<PlaceOnRoad>& truth, EvaluatedFix& evaluated) {
   const Fix& fix = evaluated.frame.fix;
-  const LineProjection truth = line.project(frame.position);
-  evaluated.truth_along_m = truth.along_m;
-  evaluated.truth_lateral_m = truth.lateral_m;
-  if (fix.along_m) evaluated.error_m = *fix.along_m - truth.along_m;
-  if (fix.lateral_m) evaluated.lateral_error_m = *fix.lateral_m - truth.lateral_m;
+  if (fix.position) evaluated.distance_m = geodesic_distance_m(frame.position, *fix.position);
   if (fix.heading_deg) evaluated.heading_error_deg = turn_deg(frame.heading_deg, *fix.heading_deg);
+  if (truth) {
+    evaluated.truth_segment = truth->segment.segment;
+    evaluated.truth_along_m = truth->along_m;
+    evaluated.truth_lateral_m = truth->lateral_m;
+  }
+  if (!fix.along_m) return;
+  const bool is_there = truth && truth->segment == SegmentKey{fix.version, fix.segment};
+  if (is_there) {
+    evaluated.error_m = *fix.along_m - truth->along_m;
+    if (fix.lateral_m) evaluated.lateral_error_m = *fix.lateral_m - truth->lateral_m;
+    return;
+  }
+  evaluated.is_on_wrong_segment = true;
+  if (!fix.position) return;
+  constexpr double kSamePlaceM = 2;  // across a junction
+  const bool is_near = truth && *evaluated.distance_m < kSamePlaceM + std::abs(truth->lateral_m);
+  evaluated.error_m = is_near ? ahead_m(frame, *fix.position) : *evaluated.distance_m;
 }
 
 }  // namespace
@@ -141,19 +119,15 @@ void compare(const Frame& frame, const RouteLine& line, EvaluatedFix& evaluated)
 Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::string& layer,
                                         const Drive& drive, const std::vector<FrameFix>& fixes,
                                         MapSource& source) {
-  Lines lines(source);
-  std::set<SegmentName> driven;
+  RoadTruth truth(source);
+  std::set<SegmentKey> driven;
   MethodEvaluation evaluation;
   for (std::size_t i = 0; i < fixes.size(); ++i) {
-    EvaluatedFix evaluated{fixes[i], std::nullopt, std::nullopt};
-    const auto name = segment_for_truth(fixes[i].fix, drive.frames[i].position, source);
-    if (!name) return name.error();
-    if (*name) {
-      const Result<const RouteLine*> line = lines.of(**name);
-      if (!line) return line.error();
-      compare(drive.frames[i], **line, evaluated);
-      if (fixes[i].fix.along_m) driven.insert(**name);
-    }
+    EvaluatedFix evaluated{fixes[i]};
+    const auto place = truth.place_of(drive.frames[i], fixes[i].fix);
+    if (!place) return place.error();
+    compare(drive.frames[i], *place, evaluated);
+    if (fixes[i].fix.along_m) driven.insert({fixes[i].fix.version, fixes[i].fix.segment});
     evaluation.fixes.push_back(std::move(evaluated));
   }
   Summary& summary = evaluation.summary;
@@ -162,7 +136,10 @@ Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::st
   summarize_errors(evaluation.fixes, summary);
   summarize_pose(evaluation.fixes, summary);
   summarize_latency(evaluation.fixes, summary);
-  const Result<double> size = map_kb_per_m(driven, layer, lines, source);
+  summary.distance_m = figures_of(evaluation.fixes, &EvaluatedFix::distance_m);
+  summary.wrong_segment_frames = static_cast<std::size_t>(
+      std::ranges::count(evaluation.fixes, true, &EvaluatedFix::is_on_wrong_segment));
+  const Result<double> size = map_kb_per_m(driven, layer, truth, source);
   if (!size) return size.error();
   summary.map_kb_per_m = *size;
   return evaluation;

@@ -23,9 +23,18 @@ struct FrameFix {
 
 struct EvaluatedFix {
   FrameFix frame;
-  std::optional<double> truth_along_m;  // on the fix's segment, or the nearest one without a fix
-  std::optional<double> error_m;        // fix - truth, if the fix has an arc length
-  // Lateral offset of the recorded position from the same segment's line, positive to the right.
+  // The segment that the recorded position, heading and altitude belong to (RoadTruth); empty off
+  // the map.
+  std::string truth_segment = {};
+  std::optional<double> truth_along_m = {};  // on that segment
+  // Fix - truth, if the fix has an arc length: along the segment; where they are on different
+  // segments along the recorded direction, or, on a wrong road, the distance in plan.
+  std::optional<double> error_m = {};
+  // In plan, from the recorded position to the fix's; of a method that does not know its lateral
+  // offset, to the line.
+  std::optional<double> distance_m = {};
+  bool is_on_wrong_segment = false;  // the fix is on another segment than the truth
+  // Lateral offset of the recorded position from the segment's line, positive to the right.
   std::optional<double> truth_lateral_m = {};
   // Fix - truth, if the method estimates them.
   std::optional<double> lateral_error_m = {};
@@ -57,6 +66,8 @@ struct Summary {
   ErrorFigures lateral_error_m;
   double lateral_within_2_sigma = std::numeric_limits<double>::quiet_NaN();  // share, [0, 1]
   ErrorFigures heading_error_deg;
+  ErrorFigures distance_m;  // in plan, of all fixes with a position
+  std::size_t wrong_segment_frames = 0;
 
   bool knows_lateral() const { return std::isfinite(lateral_error_m.mean); }
 };
@@ -66,9 +77,8 @@ struct MethodEvaluation {
   std::vector<EvaluatedFix> fixes;  // one per frame, in order
 };
 
-// Adds the ground truth: arc length and lateral offset of the recorded position relative to the
-// segment's line, and the recorded heading. `layer` is that of the method. Errors: those of the
-// source.
+// Adds the ground truth: the segment, arc length and lateral offset of the recorded position, and
+// the recorded heading. `layer` is that of the method. Errors: those of the source.
 Result<MethodEvaluation> evaluate_fixes(const std::string& method, const std::string& layer,
                                         const Drive& drive, const std::vector<FrameFix>& fixes,
                                         MapSource& source);

@@ -14,9 +14,9 @@ constexpr std::chrono::seconds kLongestWait(20);  // for the map data of one fra
 
 // The localizer along roads after the hand-off: it receives the global fixes in place of GNSS
 // fixes.
-class Successor {
+class RouteLocalizer {
  public:
-  Successor(const std::shared_ptr<MapSource>& source, const Camera& camera)
+  RouteLocalizer(const std::shared_ptr<MapSource>& source, const Camera& camera)
       : localizer_(source, camera, LocalizerSettings()) {}
 
   void observe(const Odometry& odometry) { localizer_.observe(odometry); }
@@ -68,8 +68,8 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
                  "add the odometry readings (timestamp_s,speed_mps,yaw_rate_dps)"};
   }
   GlobalLocalizer localizer(walls, drive.camera.pinhole, run.localizer);
-  std::optional<Successor> successor;
-  if (run.localizer_source) successor.emplace(run.localizer_source, drive.camera);
+  std::optional<RouteLocalizer> on_route;
+  if (run.localizer_source) on_route.emplace(run.localizer_source, drive.camera);
 
   FoundDrive found;
   const FrameReader frames(drive);
@@ -80,16 +80,16 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
     if (!gray) return gray.error();
     for (const Odometry& odometry : sensors.odometry_until(frame.timestamp_s)) {
       localizer.observe(odometry);
-      if (successor) successor->observe(odometry);
+      if (on_route) on_route->observe(odometry);
     }
     const Stopwatch watch;
     const GlobalPoseEstimate fix = localizer.find(*gray, frame.timestamp_s);
     found.frames.push_back({frame.filename, fix, watch.ms()});
-    if (successor) {
-      Result<FrameFix> localized = successor->localize(frame, *gray, fix, run.stopped);
+    if (on_route) {
+      Result<FrameFix> localized = on_route->localize(frame, *gray, fix, run.stopped);
       if (!localized) return localized.error();
       found.localized.push_back(std::move(*localized));
-      found.outage = successor->outage();
+      found.outage = on_route->outage();
     }
     if (!run.on_frame(i, fix, localizer)) {
       return Error{ErrorCode::cancelled, drive.folder.string(),

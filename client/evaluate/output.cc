@@ -21,7 +21,7 @@ void add_fix(CsvText& csv, const FrameFix& frame) {
   const Fix& fix = frame.fix;
   csv.rounded(fix.timestamp_s, 4).cell(frame.filename).cell(name_of(fix.status)).cell(fix.segment);
   csv.rounded(fix.along_m, 4);
-  csv.rounded(fix.along_m ? std::optional(fix.sigma_m) : std::nullopt, 4);
+  csv.rounded(fix.along_m || fix.position ? std::optional(fix.sigma_m) : std::nullopt, 4);
   csv.rounded(fix.position ? std::optional(fix.position->latitude_deg) : std::nullopt, 9);
   csv.rounded(fix.position ? std::optional(fix.position->longitude_deg) : std::nullopt, 9);
   csv.cell(static_cast<long long>(fix.matches)).rounded(frame.latency_ms, 2);
@@ -63,13 +63,14 @@ std::string fixes_csv(const std::vector<FrameFix>& fixes) {
 
 std::string evaluated_fixes_csv(const std::vector<EvaluatedFix>& fixes) {
   CsvText csv(std::string(kFixColumns) + ",truth_along_m,error_m," + kPoseColumns +
-              ",truth_lateral_m,lateral_error_m,heading_error_deg");
+              ",truth_lateral_m,lateral_error_m,heading_error_deg,truth_segment,distance_m");
   for (const EvaluatedFix& fix : fixes) {
     add_fix(csv, fix.frame);
     csv.rounded(fix.truth_along_m, 4).rounded(fix.error_m, 4);
     add_pose(csv, fix.frame.fix);
     csv.rounded(fix.truth_lateral_m, 4).rounded(fix.lateral_error_m, 4);
-    csv.rounded(fix.heading_error_deg, 4).end_row();
+    csv.rounded(fix.heading_error_deg, 4);
+    csv.cell(fix.truth_segment).rounded(fix.distance_m, 4).end_row();
   }
   return csv.text();
 }
@@ -96,7 +97,11 @@ std::string summary_json(const std::vector<MethodEvaluation>& methods) {
                     {"lateral_within_2_sigma", figure(summary.lateral_within_2_sigma)},
                     {"mean_heading_error_deg", figure(summary.heading_error_deg.mean)},
                     {"p95_heading_error_deg", figure(summary.heading_error_deg.p95)},
-                    {"max_heading_error_deg", figure(summary.heading_error_deg.max)}});
+                    {"max_heading_error_deg", figure(summary.heading_error_deg.max)},
+                    {"mean_distance_m", figure(summary.distance_m.mean)},
+                    {"p95_distance_m", figure(summary.distance_m.p95)},
+                    {"max_distance_m", figure(summary.distance_m.max)},
+                    {"wrong_segment_frames", summary.wrong_segment_frames}});
   }
   return list.dump(1) + "\n";
 }

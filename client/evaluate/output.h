@@ -18,7 +18,7 @@ extern const OutputKind kSummaryOutput;
 // fixes.csv of localize: one row per frame. Unknown cells are empty.
 std::string fixes_csv(const std::vector<FrameFix>& fixes);
 // fixes-METHOD.csv of evaluate: the same with truth_along_m and error_m after latency_ms, and the
-// ground truth and errors of lateral offset and heading at the end.
+// ground truth and errors of lateral offset, heading and position at the end.
 std::string evaluated_fixes_csv(const std::vector<EvaluatedFix>& fixes);
 // summary.json: a list with one object per method. Unknown figures are null.
 std::string summary_json(const std::vector<MethodEvaluation>& methods);

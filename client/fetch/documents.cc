@@ -1,6 +1,7 @@
 #include "client/fetch/documents.h"
 
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "client/fetch/json_fields.h"
@@ -30,20 +31,46 @@ GeoPoint vertex_of(JsonFields& fields, const Json& point) {
           fields.number_at(point, 2, -kMaxAltitudeM, kMaxAltitudeM)};
 }
 
-std::vector<std::string> successors_of(JsonFields& fields, const Json& json) {
-  std::vector<std::string> successors;
-  for (const Json& id : fields.array(json, "successors")) {
-    const bool valid = id.is_string() && is_segment_id(id.get_ref<const std::string&>());
-    if (!valid) fields.fail("a successor is not a segment id");
-    if (valid) successors.push_back(id.get<std::string>());
+// A successor without a map is in that of the segment itself.
+std::vector<Successor> successors_of(JsonFields& fields, const Json& json, const std::string& map) {
+  std::vector<Successor> successors;
+  for (const Json& successor : fields.array(json, "successors")) {
+    const bool is_neighbour = successor.is_object() && successor.contains("map");
+    successors.push_back({segment_id(fields, successor, "segment"),
+                          is_neighbour ? segment_id(fields, successor, "map") : map});
   }
   return successors;
+}
+
+std::vector<StoredPass> passes_of(JsonFields& fields, const Json& json) {
+  std::vector<StoredPass> passes;
+  for (const Json& object : fields.array(json, "passes")) {
+    StoredPass pass;
+    pass.drive = segment_id(fields, object, "drive");
+    pass.from_m = fields.number(object, "from_m", 0, kMaxAlongM);
+    pass.to_m = fields.number(object, "to_m", pass.from_m, kMaxAlongM);
+    passes.push_back(std::move(pass));
+  }
+  return passes;
+}
+
+PositionError position_error_of(JsonFields& fields, const Json& json) {
+  const auto optional_m = [&](const char* key) {
+    return json.contains(key) ? std::optional(fields.number(json, key, 0, kMaxAlongM))
+                              : std::nullopt;
+  };
+  PositionError error{optional_m("position_sigma_m"), optional_m("position_correlation_m"), false};
+  if (const auto assumed = json.find("assumed"); assumed != json.end()) {
+    if (!assumed->is_boolean()) fields.fail("\"assumed\" is neither true nor false");
+    error.is_assumed = assumed->is_boolean() && assumed->get<bool>();
+  }
+  return error;
 }
 
 // Reads the fields common to tiles and cells.
 template <class Entry>
 void read_stored(JsonFields& fields, const Json& json, Entry& entry) {
-  entry.items = fields.whole(json, "items", std::numeric_limits<std::uint64_t>::max());
+  entry.items = fields.whole(json, "items", kMaxItems);
   entry.bytes = fields.whole(json, "bytes", kMaxFrameBytes);
   entry.digest = fields.text(json, "digest");
   if (fields.ok() && entry.bytes == 0) fields.fail("a tile without bytes");
@@ -154,12 +181,11 @@ Result<std::vector<NearbySegment>> parse_nearby_document(std::string_view text,
 }
 
 Result<MapDescription> parse_map_document(std::string_view text, const std::string& where,
-                                          const std::string& map) {
+                                          const MapVersion& version) {
   JsonFields fields(where);
   const Json json = fields.parsed(text);
   MapDescription description;
-  description.version = version_of(fields, json, "name");
-  check_is_about(fields, map, description.version.map);
+  description.version = version;
   const Json& parameters = fields.object(json, "layer_parameters");
   for (const Json& layer : fields.array(json, "layers")) {
     if (!layer.is_string() || !is_layer_name(layer.get_ref<const std::string&>())) {
@@ -181,8 +207,6 @@ Result<SegmentDocument> parse_segment_document(std::string_view text, const std:
                                                const std::string& segment) {
   JsonFields fields(where);
   const Json json = fields.parsed(text);
-  check_is_about(fields, version.map, fields.text(json, "map"));
-  check_is_about(fields, version.build, fields.text(json, "build"));
   check_is_about(fields, segment, fields.text(json, "segment"));
   SegmentDocument document;
   document.description.id = segment;
@@ -190,18 +214,17 @@ Result<SegmentDocument> parse_segment_document(std::string_view text, const std:
   for (const Json& point : fields.array(json, "line")) {
     document.description.vertices.push_back(vertex_of(fields, point));
   }
-  document.description.successors = successors_of(fields, json);
+  document.description.successors = successors_of(fields, json, version.map);
+  document.description.passes = passes_of(fields, json);
+  document.description.position_error = position_error_of(fields, json);
   document.tiles = indices_of(fields, json, "tiles", tile_entry_of, &TileEntry::index);
   if (!fields.ok()) return fields.error();
   return document;
 }
 
-Result<AreasDocument> parse_areas_document(std::string_view text, const std::string& where,
-                                           const MapVersion& version) {
+Result<AreasDocument> parse_areas_document(std::string_view text, const std::string& where) {
   JsonFields fields(where);
   const Json json = fields.parsed(text);
-  check_is_about(fields, version.map, fields.text(json, "map"));
-  check_is_about(fields, version.build, fields.text(json, "build"));
   AreasDocument document = indices_of(fields, json, "cells", cell_entry_of, &CellEntry::cell);
   if (!fields.ok()) return fields.error();
   return document;

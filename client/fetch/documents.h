@@ -22,18 +22,18 @@ struct SegmentDocument {
 using AreasDocument = std::map<std::string, std::vector<CellEntry>>;
 
 // `where` (the document's URL) is used in error messages. Errors of all: corrupt, also for a
-// document about something else than what was requested.
+// document about something else than what was requested. The documents of a build name neither
+// their map nor their build; the caller knows these by the digest.
 Result<std::vector<MapVersion>> parse_catalog_document(std::string_view text,
                                                        const std::string& where);
 Result<std::vector<NearbySegment>> parse_nearby_document(std::string_view text,
                                                          const std::string& where);
 Result<MapDescription> parse_map_document(std::string_view text, const std::string& where,
-                                          const std::string& map);
+                                          const MapVersion& version);
 Result<SegmentDocument> parse_segment_document(std::string_view text, const std::string& where,
                                                const MapVersion& version,
                                                const std::string& segment);
-Result<AreasDocument> parse_areas_document(std::string_view text, const std::string& where,
-                                           const MapVersion& version);
+Result<AreasDocument> parse_areas_document(std::string_view text, const std::string& where);
 
 // The entries whose arc length range meets `range`.
 std::vector<TileEntry> entries_meeting(const std::vector<TileEntry>& index,

@@ -13,8 +13,12 @@
 namespace milepost {
 namespace {
 
-SegmentDescription description_of(const StoredSegment& stored) {
-  SegmentDescription description{stored.id, stored.length_m, {}, stored.successors};
+SegmentDescription description_of(const StoredSegment& stored, const std::string& map) {
+  SegmentDescription description{stored.id,         stored.length_m, {},
+                                 stored.successors, stored.passes,   stored.position_error};
+  for (Successor& successor : description.successors) {
+    if (successor.map.empty()) successor.map = map;
+  }
   for (const StoredVertex& vertex : stored.vertices) {
     description.vertices.push_back({vertex.latitude_deg, vertex.longitude_deg, vertex.altitude_m});
   }
@@ -86,7 +90,7 @@ class FileSource : public MapSource {
     if (!checked.ok()) return checked.error();
     const Result<StoredSegment> stored = file_->reader.segment(segment);
     if (!stored.ok()) return stored.error();
-    return description_of(*stored);
+    return description_of(*stored, version.map);
   }
 
   Result<std::vector<EncodedTile>> tiles(const MapVersion& version, const std::string& segment,
@@ -100,7 +104,7 @@ class FileSource : public MapSource {
     std::vector<EncodedTile> tiles;
     for (const TileEntry& entry : *entries) {
       if (is_stopped(stopped_)) return cancelled(file_->reader.file().string());
-      Result<Bytes> tile = file_->reader.tile(segment, layer, entry.index);
+      Result<Bytes> tile = file_->reader.tile(segment, layer, entry);
       if (!tile.ok()) return tile.error();
       tiles.push_back({entry.index, std::move(tile).value()});
     }
@@ -118,7 +122,7 @@ class FileSource : public MapSource {
     std::vector<EncodedCell> tiles;
     for (const CellEntry& entry : *entries) {
       if (is_stopped(stopped_)) return cancelled(file_->reader.file().string());
-      Result<Bytes> tile = file_->reader.cell(layer, entry.cell);
+      Result<Bytes> tile = file_->reader.cell(layer, entry);
       if (!tile.ok()) return tile.error();
       tiles.push_back({entry.cell, std::move(tile).value()});
     }
@@ -151,7 +155,7 @@ class FileSource : public MapSource {
     const std::lock_guard lock(file_->mutex);
     const Status checked = check(version);
     if (!checked.ok()) return checked.error();
-    Result<Bytes> tile = file_->reader.tile(segment, layer, entry.index);
+    Result<Bytes> tile = file_->reader.tile(segment, layer, entry);
     if (!tile.ok()) return tile.error();
     return std::optional<Bytes>(std::move(tile).value());
   }
@@ -193,7 +197,8 @@ class FileSource : public MapSource {
     for (const std::string& id : file_->reader.segment_ids()) {
       const Result<StoredSegment> stored = file_->reader.segment(id);
       if (!stored.ok()) return stored.error();
-      add_line(file_->description.version, description_of(*stored), lines);
+      add_line(file_->description.version, description_of(*stored, file_->description.version.map),
+               lines);
     }
     file_->lines = std::move(lines);
     return ok_status();

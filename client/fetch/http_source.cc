@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "client/cache/tile_cache.h"
+#include "client/fetch/build_documents.h"
 #include "client/fetch/cell_request.h"
 #include "client/fetch/documents.h"
 #include "client/fetch/http_source_parts.h"
@@ -20,7 +21,6 @@
 namespace milepost {
 namespace {
 
-constexpr std::size_t kMaxDocumentsInMemory = 64;
 // After the server was unavailable, it is not asked for this time for what the cache knows:
 // otherwise a vehicle without a network would wait for a connection timeout at every frame.
 constexpr std::int64_t kServerAway_s = 5;
@@ -31,35 +31,6 @@ using SharedIndex = std::shared_ptr<const std::vector<Entry>>;
 bool is_unavailable(const Status& status) {
   return !status.ok() && status.error().code == ErrorCode::unavailable;
 }
-
-// Recently read documents of one kind, parsed, by their cache keys. Safe to use from several
-// threads at once.
-template <class Document>
-class DocumentMemory {
- public:
-  using Shared = std::shared_ptr<const Document>;
-
-  Shared find(const CacheKey& key) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = documents_.find(parts_of(key));
-    return found == documents_.end() ? nullptr : found->second;
-  }
-
-  void keep(const CacheKey& key, Shared document) {
-    const std::lock_guard lock(mutex_);
-    // The cache on disk has them all, so clearing the memory costs little.
-    if (documents_.size() >= kMaxDocumentsInMemory) documents_.clear();
-    documents_[parts_of(key)] = std::move(document);
-  }
-
- private:
-  static std::array<std::string, 3> parts_of(const CacheKey& key) {
-    return {key.map, key.build, key.segment};
-  }
-
-  mutable std::mutex mutex_;
-  std::map<std::array<std::string, 3>, Shared> documents_;
-};
 
 // The lines of the cached segments, built when first needed. Safe to use from several threads at
 // once.
@@ -93,16 +64,15 @@ struct HttpShared {
         cache(std::move(open_cache)),
         requests(std::move(parts.transport),
                  {.attempts = settings.attempts, .sleep = std::move(parts.sleep)}),
-        fetcher(requests, *cache) {}
+        fetcher(requests, *cache),
+        documents(base_url, requests, *cache, [this] { known_lines.forget(); }) {}
 
   const std::string base_url;
   const std::function<std::int64_t()> steady_s;
   const std::unique_ptr<TileCache> cache;
   ServerRequests requests;
   TileFetcher fetcher;
-  DocumentMemory<MapDescription> maps;
-  DocumentMemory<SegmentDocument> segments;
-  DocumentMemory<AreasDocument> areas;
+  BuildDocuments documents;
   LineMemory known_lines;
   std::atomic<std::int64_t> server_away_until_s = 0;
 };
@@ -116,7 +86,8 @@ class HttpSource : public MapSource {
         base_url_(shared_->base_url),
         cache_(*shared_->cache),
         requests_(shared_->requests),
-        fetcher_(shared_->fetcher) {
+        fetcher_(shared_->fetcher),
+        documents_(shared_->documents) {
     retry_.attempts = attempts;
   }
 
@@ -142,28 +113,18 @@ class HttpSource : public MapSource {
       return parse_catalog_document(text, url);
     };
     return current_list<MapVersion>(
-        url, [this] { return maps_known(); }, parse);
+        url, [this] { return documents_.cached_maps(); }, parse);
   }
 
   Result<MapDescription> describe(const MapVersion& version) override {
-    const std::string url = map_url(version);
-    const auto parse = [&](std::string_view text,
-                           const std::string& where) -> Result<MapDescription> {
-      auto described = parse_map_document(text, where, version.map);
-      if (described.ok() && described->version != version) {
-        return rebuilt(url, version, described->version);
-      }
-      return described;
-    };
-    const auto document = document_at(
-        shared_->maps, CacheKey::map_document(version.map, version.build), url, parse, [] {});
+    const auto document = documents_.map(version, asker());
     if (!document.ok()) return document.error();
     return **document;
   }
 
   Result<SegmentDescription> segment(const MapVersion& version,
                                      const std::string& segment) override {
-    const auto document = document_of(version, segment);
+    const auto document = documents_.segment(version, segment, asker());
     if (!document.ok()) return document.error();
     return (*document)->description;
   }
@@ -174,9 +135,8 @@ class HttpSource : public MapSource {
     const auto index = index_of(version, segment, layer);
     if (!index.ok()) return index.error();
     const std::vector<TileEntry> wanted = entries_meeting(**index, range);
-    // The segment document must not be evicted before its tiles.
-    cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
-    const std::string tiles_url = segment_url(version, segment) + "/tiles";
+    documents_.touch_segment(version, segment);  // not evicted before the tiles that they list
+    const std::string tiles_url = documents_.segment_url(version, segment) + "/tiles";
     auto found = fetcher_.fetch(
         {version.map, version.build, segment, layer, 0}, expected_tiles(wanted),
         [&](const auto& missing) { return request_for_tiles(tiles_url, layer, **index, missing); },
@@ -197,10 +157,8 @@ class HttpSource : public MapSource {
     const auto index = cell_index_of(version, layer);
     if (!index.ok()) return index.error();
     const std::vector<CellEntry> wanted = entries_meeting(**index, box);
-    // The documents that list the cells must not be evicted before them.
-    cache_.touch(CacheKey::areas_document(version.map, version.build));
-    cache_.touch(CacheKey::map_document(version.map, version.build));
-    const std::string layer_url = areas_url(version) + "/" + escaped_for_url(layer);
+    documents_.touch_areas(version);  // not evicted before the cells that they list
+    const std::string layer_url = documents_.areas_url(version) + "/" + escaped_for_url(layer);
     auto found = fetcher_.fetch(
         {version.map, version.build, "", layer, 0}, expected_tiles(wanted),
         [&](const auto& missing) { return request_for_cells(layer_url, **index, missing); },
@@ -239,9 +197,7 @@ class HttpSource : public MapSource {
                       const TileSink& take) override {
     const auto index = index_of(version, segment, layer);
     if (!index.ok()) return {index.error()};
-    // The documents that list the tiles must not be evicted before them.
-    cache_.touch(CacheKey::map_document(version.map, version.build));
-    cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
+    documents_.touch_segment(version, segment);  // not evicted before the tiles that they list
     std::set<std::uint32_t> missing;
     for (const TileEntry& entry : **index) {
       if (std::ranges::find(tiles, entry.index, &TileEntry::index) != tiles.end()) {
@@ -249,10 +205,10 @@ class HttpSource : public MapSource {
       }
     }
     if (missing.empty()) {  // the document has changed since the tiles were selected
-      return {Error{ErrorCode::corrupt, segment_url(version, segment),
+      return {Error{ErrorCode::corrupt, documents_.segment_url(version, segment),
                     "its tiles are not those that it listed before", "build the map anew"}};
     }
-    const std::string tiles_url = segment_url(version, segment) + "/tiles";
+    const std::string tiles_url = documents_.segment_url(version, segment) + "/tiles";
     return fetcher_.fetch_once(
         {version.map, version.build, segment, layer, 0},
         request_for_tiles(tiles_url, layer, **index, missing),
@@ -277,19 +233,7 @@ class HttpSource : public MapSource {
   }
 
  private:
-  std::string map_url(const MapVersion& version) const {
-    return base_url_ + "/v1/maps/" + escaped_for_url(version.map);
-  }
-
-  std::string build_url(const MapVersion& version) const {
-    return map_url(version) + "/builds/" + escaped_for_url(version.build);
-  }
-
-  std::string segment_url(const MapVersion& version, const std::string& segment) const {
-    return build_url(version) + "/segments/" + escaped_for_url(segment);
-  }
-
-  std::string areas_url(const MapVersion& version) const { return build_url(version) + "/areas"; }
+  Asker asker() const { return {retry_, stopped_}; }
 
   static CheckedRequest request_for_tiles(const std::string& tiles_url, const std::string& layer,
                                           const std::vector<TileEntry>& index,
@@ -315,18 +259,6 @@ class HttpSource : public MapSource {
                                       shortest_fixed(request.box->north_deg)
                                 : layer_url + "/" + std::to_string(request.expected.front().cell);
     return {url, expected_tiles(request.expected)};
-  }
-
-  static Error rebuilt(const std::string& url, const MapVersion& asked, const MapVersion& current) {
-    return {ErrorCode::gone, url,
-            "the map was rebuilt: build " + asked.build + " is gone, the current one is " +
-                current.build,
-            "request the map's current build"};
-  }
-
-  Status document(const std::string& url, const DocumentReader& read) {
-    return with_retries(retry_, stopped_,
-                        [&] { return requests_.try_document(url, read, stopped_); });
   }
 
   // The server's current list; while the server cannot be reached or something else answers in its
@@ -356,14 +288,6 @@ class HttpSource : public MapSource {
     return items;
   }
 
-  std::vector<MapVersion> maps_known() {
-    std::vector<MapVersion> maps;
-    for (const CachedDocument& cached : cache_.map_documents()) {
-      maps.push_back({cached.key.map, cached.key.build});
-    }
-    return maps;
-  }
-
   std::vector<NearbySegment> segments_known_near(const GeoPoint& position, double radius_m) {
     const auto lines = shared_->known_lines.get_or_make([this] { return cached_lines(); });
     return lines_near(*lines, position, radius_m);
@@ -371,60 +295,16 @@ class HttpSource : public MapSource {
 
   std::vector<KnownLine> cached_lines() {
     std::vector<KnownLine> lines;
-    for (const CachedDocument& cached : cache_.segment_documents()) {
-      const MapVersion version{cached.key.map, cached.key.build};
-      const auto document =
-          parse_segment_document(cached.content, "the cache", version, cached.key.segment);
-      if (document.ok()) add_line(version, document->description, lines);
+    for (const auto& [version, segment] : documents_.cached_segments()) {
+      add_line(version, segment, lines);
     }
     return lines;
-  }
-
-  Result<std::shared_ptr<const SegmentDocument>> document_of(const MapVersion& version,
-                                                             const std::string& segment) {
-    const auto parse = [&](std::string_view text, const std::string& where) {
-      return parse_segment_document(text, where, version, segment);
-    };
-    return document_at(
-        shared_->segments, CacheKey::segment_document(version.map, version.build, segment),
-        segment_url(version, segment), parse, [this] { shared_->known_lines.forget(); });
-  }
-
-  // An immutable document: from memory, else from the cache, else from the server.
-  template <class Document, class Parse, class OnFetched>
-  Result<std::shared_ptr<const Document>> document_at(DocumentMemory<Document>& memory,
-                                                      const CacheKey& key, const std::string& url,
-                                                      const Parse& parse,
-                                                      const OnFetched& on_fetched) {
-    using Shared = std::shared_ptr<const Document>;
-    if (Shared known = memory.find(key)) return known;
-    const auto keep = [&](Document&& document) {
-      const auto shared = std::make_shared<const Document>(std::move(document));
-      memory.keep(key, shared);
-      return Shared(shared);
-    };
-    if (const auto cached = cache_.find(key)) {
-      Result<Document> document = parse(as_text(*cached), "the cache");
-      if (document.ok()) return keep(std::move(*document));
-      cache_.remove(key);
-    }
-    Shared fetched_document;
-    const Status fetched = document(url, [&](const std::string& text) -> Status {
-      Result<Document> document = parse(text, url);
-      if (!document.ok()) return document.error();
-      cache_.store(key, as_bytes(text));
-      on_fetched();
-      fetched_document = keep(std::move(*document));
-      return ok_status();
-    });
-    if (!fetched.ok()) return fetched.error();
-    return fetched_document;
   }
 
   // The tile index of a layer; empty if the map has the layer but the segment has no tile in it.
   Result<SharedIndex<TileEntry>> index_of(const MapVersion& version, const std::string& segment,
                                           const std::string& layer) {
-    const auto document = document_of(version, segment);
+    const auto document = documents_.segment(version, segment, asker());
     if (!document.ok()) return document.error();
     return index_in(version, *document, (*document)->tiles, layer);
   }
@@ -432,12 +312,7 @@ class HttpSource : public MapSource {
   // The cell index of a layer; empty if the map has the layer but no cell in it.
   Result<SharedIndex<CellEntry>> cell_index_of(const MapVersion& version,
                                                const std::string& layer) {
-    const auto parse = [&](std::string_view text, const std::string& where) {
-      return parse_areas_document(text, where, version);
-    };
-    const auto document =
-        document_at(shared_->areas, CacheKey::areas_document(version.map, version.build),
-                    areas_url(version), parse, [] {});
+    const auto document = documents_.areas(version, asker());
     if (!document.ok()) return document.error();
     return index_in(version, *document, **document, layer);
   }
@@ -455,8 +330,8 @@ class HttpSource : public MapSource {
     if (map->layers.contains(layer)) {
       return SharedIndex<Entry>(std::make_shared<const std::vector<Entry>>());
     }
-    return Error{ErrorCode::not_found, map_url(version), "the map has no layer \"" + layer + "\"",
-                 "build the map with it"};
+    return Error{ErrorCode::not_found, documents_.build_url(version),
+                 "the map has no layer \"" + layer + "\"", "build the map with it"};
   }
 
   const std::shared_ptr<HttpShared> shared_;
@@ -466,6 +341,7 @@ class HttpSource : public MapSource {
   TileCache& cache_;
   ServerRequests& requests_;
   TileFetcher& fetcher_;
+  BuildDocuments& documents_;
 };
 
 }  // namespace

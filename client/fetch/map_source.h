@@ -15,6 +15,7 @@
 #include "schema/base/cell_grid.h"
 #include "schema/base/range.h"
 #include "schema/base/result.h"
+#include "schema/document/stored_map.h"
 #include "schema/feature/types.h"
 #include "schema/geo/geodesy.h"
 #include "schema/store/map_store.h"
@@ -42,7 +43,8 @@ struct MapDescription {
   Bounds bounds = {};                                       // around all segments and cells
 };
 
-// A segment that passes near a position.
+// A segment that passes near a position. No build covers what a server lists here, nor its catalog:
+// it says what to look at, never where the vehicle is.
 struct NearbySegment {
   MapVersion version;
   std::string segment;
@@ -55,7 +57,9 @@ struct SegmentDescription {
   std::string id;
   double length_m = 0;
   std::vector<GeoPoint> vertices;
-  std::vector<std::string> successors;
+  std::vector<Successor> successors;  // each with the name of its map, also of this one
+  std::vector<StoredPass> passes = {};
+  PositionError position_error = {};
 };
 
 // A tile as stored: opaque here, decoded by schema/tile.
@@ -79,7 +83,9 @@ struct SourceCounters {
   std::uint64_t cache_failures = 0;    // what the cache could not read or store (a full disk, say)
 };
 
-// Safe to use from several threads at once (the prefetcher uses it concurrently with the
+// Documents and tiles of a build are checked against its digest before they are returned or stored,
+// wherever they come from. Damaged ones are requested again, past every cache, and then are
+// corrupt. Safe to use from several threads at once (the prefetcher uses it concurrently with the
 // localizer).
 class MapSource {
  public:

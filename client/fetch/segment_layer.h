@@ -26,7 +26,8 @@ struct SegmentLayer {
   std::string name;  // of the layer
   std::shared_ptr<const BuildLayer> build;
   RouteLine line;
-  std::vector<TileEntry> index;  // of all its tiles, ascending
+  std::vector<TileEntry> index;            // of all its tiles, ascending
+  std::vector<Successor> successors = {};  // each with the name of its map
 
   const std::string& map() const { return key.version.map; }
   const LayerParameters& parameters() const { return build->parameters; }

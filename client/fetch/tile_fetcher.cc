@@ -52,6 +52,15 @@ Result<std::map<std::uint32_t, Bytes>> TileFetcher::fetch(const CacheKey& layer_
 
 Attempt TileFetcher::fetch_once(const CacheKey& layer_key, const CheckedRequest& request,
                                 const TileSink& take, const Stopped& stopped) {
+  Attempt attempt = fetch_from(Caches::allowed, layer_key, request, take, stopped);
+  const bool is_damaged = !attempt.status.ok() && attempt.status.error().code == ErrorCode::corrupt;
+  if (!is_damaged) return attempt;
+  return fetch_from(Caches::bypassed, layer_key, request, take, stopped);
+}
+
+Attempt TileFetcher::fetch_from(Caches caches, const CacheKey& layer_key,
+                                const CheckedRequest& request, const TileSink& take,
+                                const Stopped& stopped) {
   bool advanced = false;
   TileCutter cutter(request.url, request.expected, [&](std::uint32_t number, const Bytes& tile) {
     ++from_server_;
@@ -59,8 +68,8 @@ Attempt TileFetcher::fetch_once(const CacheKey& layer_key, const CheckedRequest&
     if (take(number, tile)) advanced = true;
   });
   HttpAnswer answer = requests_.get(
-      request.url, bytes_of(request.expected), [&](ByteView piece) { return cutter.take(piece); },
-      stopped);
+      request.url, bytes_of(request.expected), caches,
+      [&](ByteView piece) { return cutter.take(piece); }, stopped);
   if (answer.status.ok()) return {cutter.finish()};
   // Complete tiles of an interrupted response are kept; the next request fetches the rest.
   if (advanced && answer.status.error().code == ErrorCode::unavailable) return {};

@@ -42,7 +42,8 @@ class TileFetcher {
 
   // The same with a single request, from the server only. Each tile is passed to the sink as it
   // arrives, including tiles that are only part of the range. The sink returns whether the tile was
-  // missing: an interrupted response that delivered a missing tile counts as success.
+  // missing: an interrupted response that delivered a missing tile counts as success. A response
+  // with wrong bytes is requested once more past caches.
   using TileSink = std::function<bool(std::uint32_t number, const Bytes& tile)>;
   Attempt fetch_once(const CacheKey& layer_key, const CheckedRequest& request, const TileSink& take,
                      const Stopped& stopped);
@@ -53,6 +54,9 @@ class TileFetcher {
   std::uint64_t from_server() const { return from_server_; }
 
  private:
+  Attempt fetch_from(Caches caches, const CacheKey& layer_key, const CheckedRequest& request,
+                     const TileSink& take, const Stopped& stopped);
+
   ServerRequests& requests_;
   TileCache& cache_;
   std::atomic<std::uint64_t> from_cache_ = 0;

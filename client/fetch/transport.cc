@@ -29,6 +29,11 @@ struct MultiCloser {
   void operator()(CURLM* handle) const { curl_multi_cleanup(handle); }
 };
 
+struct HeadersCloser {
+  void operator()(curl_slist* headers) const { curl_slist_free_all(headers); }
+};
+using Headers = std::unique_ptr<curl_slist, HeadersCloser>;
+
 // A libcurl handle for consecutive requests. The connections belong to `multi`, which must outlive
 // `easy`.
 struct Handle {
@@ -230,20 +235,20 @@ class CurlTransport : public Transport {
     initialize_curl_once();
   }
 
-  HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes, const BodySink& sink,
-                 const Stopped& stopped) override {
+  HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes, Caches caches,
+                 const BodySink& sink, const Stopped& stopped) override {
     Handle handle = pool_.take();
     if (!handle) {
       return {Error{ErrorCode::io, url, "libcurl cannot be initialized", "free some memory"}};
     }
-    HttpAnswer answer = perform(handle, url, body_limit_bytes, sink, stopped);
+    HttpAnswer answer = perform(handle, url, body_limit_bytes, caches, sink, stopped);
     pool_.give_back(std::move(handle));
     return answer;
   }
 
  private:
   HttpAnswer perform(const Handle& connection, const std::string& url,
-                     std::uint64_t body_limit_bytes, const BodySink& sink,
+                     std::uint64_t body_limit_bytes, Caches caches, const BodySink& sink,
                      const Stopped& stopped) const {
     CURL* const handle = connection.easy.get();
     Reception reception;
@@ -252,6 +257,10 @@ class CurlTransport : public Transport {
     reception.limit_bytes = body_limit_bytes;
     std::array<char, CURL_ERROR_SIZE> message{};
     set_options(handle, url, reception, message.data());
+    const Headers headers(caches == Caches::bypassed
+                              ? curl_slist_append(nullptr, "Cache-Control: no-cache")
+                              : nullptr);
+    curl_easy_setopt(handle, CURLOPT_HTTPHEADER, headers.get());
     const std::optional<CURLcode> code = run(connection, stopped);
     HttpAnswer answer;
     answer.body_bytes = reception.received_bytes;

@@ -34,13 +34,17 @@ struct HttpAnswer {
 // detected.
 Error foreign_answer(const std::string& url, const std::string& what);
 
+// Whether a cache between the client and the server may answer. Where one has served damaged bytes,
+// the same request is sent with `Cache-Control: no-cache`.
+enum class Caches { allowed, bypassed };
+
 // All members are safe to call from several threads at once.
 class Transport {
  public:
   virtual ~Transport() = default;
   // Sends one request. At most `body_limit_bytes` are passed to the sink. Once `stopped` returns
   // true, the call ends within 0.1 s with `cancelled`.
-  virtual HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes,
+  virtual HttpAnswer get(const std::string& url, std::uint64_t body_limit_bytes, Caches caches,
                          const BodySink& sink, const Stopped& stopped) = 0;
 };
 

@@ -46,30 +46,49 @@ void merge_same(std::vector<Hypothesis>& hypotheses) {
 
 GeoPoint Hypothesis::position() const { return position_of(tracker->pose(), layer().line); }
 
-bool Hypothesis::is_on_segment(double along_m) const {
-  return along_m >= -kEndMarginM && along_m <= layer().line.length_m() + kEndMarginM;
+bool is_on_road(const TrackedPose& pose) {
+  constexpr double kSigmas = 3;
+  return !pose.full ||
+         std::abs(pose.full->lateral_m) <= kRoadsideM + kSigmas * pose.full->lateral_sigma_m;
 }
 
-bool Hypothesis::is_near_end(double ahead_m) const {
-  return tracker->pose().along_m + ahead_m > layer().line.length_m();
+bool Hypothesis::is_on_segment(const TrackedPose& pose) const {
+  return is_on_road(pose) && pose.along_m >= -kEndMarginM &&
+         pose.along_m <= layer().line.length_m() + kEndMarginM;
 }
 
 TrackingResult Hypothesis::advance(SharedFrame& frame) {
-  const double before_m = tracker->pose().along_m;
+  const double before_m = way_m();
+  const GeoPoint from = position();
+  const std::shared_ptr<const SegmentLayer> on = tracker->layer();
   TrackingResult result = tracker->track(frame);
+  if (tracker->layer() != on) {
+    const double driven_m = geodesic_distance_m(from, position());
+    way_before_m = before_m + driven_m - tracker->pose().along_m;
+  }
   timestamp_s = frame.timestamp_s();
   measured = result.measured;
   matches = result.matches;
   log_bayes_factor = result.log_bayes_factor;
   weighed = false;
   apart_m = 0;
-  odds.move(tracker->pose().along_m - before_m);
+  odds.move(way_m() - before_m);
   return result;
+}
+
+std::optional<Hypothesis> Hypothesis::continued_on(
+    const std::shared_ptr<const SegmentLayer>& successor, double begin_m) const {
+  auto continued = tracker->continued_on(successor, begin_m);
+  if (!continued) return std::nullopt;
+  Hypothesis there{std::move(continued), odds,    receiver, timestamp_s,  measured,
+                   log_bayes_factor,     matches, weighed,  way_before_m, apart_m};
+  there.way_before_m += begin_m;
+  return there;
 }
 
 void Hypothesis::weigh(double best, const std::optional<GnssFix>& reading) {
   weighed = true;
-  odds.add_frame(log_bayes_factor, best, tracker->pose().along_m);
+  odds.add_frame(log_bayes_factor, best, way_m());
   if (reading) odds.add(receiver.log_bayes_factor(*reading, position(), timestamp_s));
 }
 

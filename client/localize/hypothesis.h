@@ -15,20 +15,17 @@
 
 namespace milepost {
 
-inline constexpr double kEndMarginM = 5;  // tolerance beyond a segment's ends
+inline constexpr double kEndMarginM = 5;  // tolerance beyond a segment's ends ...
+inline constexpr double kRoadsideM = 12;  // ... and of the lateral offset from its line
 
 inline constexpr double kSameHypothesisM = 4;  // hypotheses closer than this are merged
 inline constexpr double kAgreedM = 0.5;        // ... and independently found poses agree
 
-// A segment under consideration.
-struct OpenSegment {
-  std::shared_ptr<const SegmentLayer> layer;
-  std::unique_ptr<Relocalizer> relocalizer;
-};
+// Whether a pose is not farther beside the line than any lane. Methods that do not know say yes.
+bool is_on_road(const TrackedPose& pose);
 
 // One hypothesis with its odds against "elsewhere".
 struct Hypothesis {
-  std::shared_ptr<OpenSegment> segment;
   std::unique_ptr<SegmentTracker> tracker;
   LogOdds odds;
   GnssLikelihood receiver;
@@ -37,18 +34,24 @@ struct Hypothesis {
   double log_bayes_factor = 0;  // of the last frame
   int matches = 0;
   bool weighed = false;  // whether the last frame is included in the odds
+  // The way driven is the arc length plus this: that of segments driven before.
+  double way_before_m = 0;
   // Distance to an independently found pose with about as many inliers in the last frame, in
   // metres; 0 if there is none.
   double apart_m = 0;
 
-  const SegmentLayer& layer() const { return *segment->layer; }
+  const SegmentLayer& layer() const { return *tracker->layer(); }
   GeoPoint position() const;
-  bool is_on_segment(double along_m) const;
-  // Whether the segment ends within `ahead_m`.
-  bool is_near_end(double ahead_m) const;
+  // Whether a pose is on the hypothesis' segment: on its road, and not beyond an end of it.
+  bool is_on_segment(const TrackedPose& pose) const;
+
+  double way_m() const { return tracker->pose().along_m + way_before_m; }
 
   // Tracks to the next frame.
   TrackingResult advance(SharedFrame& frame);
+  // The same hypothesis on a successor, for methods that know the arc length only; none for others.
+  std::optional<Hypothesis> continued_on(const std::shared_ptr<const SegmentLayer>& successor,
+                                         double begin_m) const;
   // Updates the odds with the last frame and, if given, a GNSS fix. `best` is the highest log Bayes
   // factor of the frame over all hypotheses.
   void weigh(double best, const std::optional<GnssFix>& reading);

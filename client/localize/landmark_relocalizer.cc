@@ -9,19 +9,22 @@ namespace {
 
 class LandmarkRelocalizer : public Relocalizer {
  public:
-  LandmarkRelocalizer(const SegmentLayer& layer, const Camera& camera,
+  LandmarkRelocalizer(std::shared_ptr<const SegmentLayer> layer, const Camera& camera,
                       const MethodSettings& settings, const LandmarkMethod& method)
-      : search_{&layer, camera, method, settings.min_start_support, settings.on_estimate},
-        window_(layer.key, settings.reach, layer.line) {}
+      : search_(std::make_shared<const LandmarkSearch>(LandmarkSearch{
+            camera, method, settings.min_start_support, settings.reach, settings.on_estimate})),
+        layer_(std::move(layer)),
+        window_(settings.reach, layer_->line.point_at(0)) {}
 
   Relocalization relocalize(SharedFrame& frame, const AlongRange& around,
                             const std::optional<LearnedCamera>& camera) override {
-    const RouteLine& line = search_.layer->line;
+    const RouteLine& line = layer_->line;
     Relocalization found;
-    found.failure = window_.cover(frame.held(), around).failure;
+    const auto road = road_around(frame.held(), layer_, around, search_->reach);
+    found.failure = window_.cover(frame.held(), road, around).failure;
     recenter_frame(line.point_at(std::clamp(around.middle_m(), 0.0, line.length_m())));
-    for (const double along_m : densest_along_m(search_.compact(frame), around)) {
-      auto tracker = std::make_unique<LandmarkTracker>(search_, window_);
+    for (const double along_m : densest_along_m(compact_frame(frame, *layer_), around)) {
+      auto tracker = std::make_unique<LandmarkTracker>(search_, layer_, window_);
       const TrackingResult begun = tracker->begin(frame, along_m, camera);
       if (begun.failure && !found.failure) found.failure = begun.failure;
       if (!begun.measured) continue;
@@ -42,17 +45,16 @@ class LandmarkRelocalizer : public Relocalizer {
   // Candidate arc lengths from the scales of the global matches: the densest votes, apart from each
   // other.
   std::vector<double> densest_along_m(const CompactFrame& frame, const AlongRange& around) const {
-    const LandmarkMethod& method = search_.method;
-    const auto matches =
-        match_global(frame, search_.layer->parameters().projection->quantization_step(),
-                     window_.landmarks(), around, method.match);
+    const LandmarkMethod& method = search_->method;
+    const auto matches = match_global(frame, layer_->parameters().projection->quantization_step(),
+                                      window_.landmarks(), around, method.match);
     std::vector<PositionEstimate> left =
-        along_by_scale(matches, frame.features, window_.landmarks(), search_.camera.pinhole,
-                       search_.layer->line, window_.frame(), method.solver.scale_sigma);
+        along_by_scale(matches, frame.features, window_.landmarks(), search_->camera.pinhole,
+                       method.solver.scale_sigma);
     std::vector<double> places;
     while (static_cast<int>(places.size()) < method.max_start_places) {
       const auto densest = combine_robustly(left, method.vote);
-      if (!densest || densest->support < search_.min_start_support) break;
+      if (!densest || densest->support < search_->min_start_support) break;
       places.push_back(densest->along_m);
       std::erase_if(left, [&](const PositionEstimate& estimate) {
         return std::abs(estimate.along_m - densest->along_m) < method.start_places_apart_m;
@@ -61,7 +63,8 @@ class LandmarkRelocalizer : public Relocalizer {
     return places;
   }
 
-  LandmarkSearch search_;
+  std::shared_ptr<const LandmarkSearch> search_;
+  std::shared_ptr<const SegmentLayer> layer_;
   LandmarkWindow window_;
 };
 
@@ -69,9 +72,9 @@ class LandmarkRelocalizer : public Relocalizer {
 
 Method landmark_method(const LandmarkMethod& settings) {
   const auto make_relocalizer =
-      [settings](const SegmentLayer& layer, const Camera& camera,
+      [settings](const std::shared_ptr<const SegmentLayer>& layer, const Camera& camera,
                  const MethodSettings& given) -> Result<std::unique_ptr<Relocalizer>> {
-    if (layer.parameters().items != LayerItems::landmarks) return unusable_items(layer);
+    if (layer->parameters().items != LayerItems::landmarks) return unusable_items(*layer);
     return std::unique_ptr<Relocalizer>(
         std::make_unique<LandmarkRelocalizer>(layer, camera, given, settings));
   };

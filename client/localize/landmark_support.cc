@@ -99,6 +99,7 @@ LandmarkSupport support_of(const PoseEstimate& estimate, double along_m, const C
   LandmarkSupport support;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const LocalLandmark& landmark = landmarks[i];
+    if (!landmark.is_of_this_way) continue;
     if (!landmark.along.widened(settings.along_margin_m).contains(along_m)) continue;
     const Eigen::Vector3d seen = rotation * (landmark.enu_m - pose.enu_m);
     if (!(seen.z() > kNearestSeenM)) continue;

@@ -15,30 +15,35 @@ namespace milepost {
 
 // What a relocalizer and its trackers have in common.
 struct LandmarkSearch {
-  const SegmentLayer* layer = nullptr;
   Camera camera;
   LandmarkMethod method;
   int min_start_support = 0;  // inlier votes or matches
+  WindowReach reach;
   std::function<void(const TrackletEstimate&)> on_estimate;
-
-  const CompactFrame& compact(SharedFrame& frame) const {
-    return frame.compact(layer->feature(), *layer->parameters().projection);
-  }
 };
+
+inline const CompactFrame& compact_frame(SharedFrame& frame, const SegmentLayer& layer) {
+  return frame.compact(layer.feature(), *layer.parameters().projection);
+}
+
+// The road around a range of the current segment, as far as a window of landmarks reaches.
+inline std::vector<UnrolledSegment> road_around(const HeldMap& held,
+                                                const std::shared_ptr<const SegmentLayer>& current,
+                                                const AlongRange& range, const WindowReach& reach) {
+  return unrolled_road(held, current, reach.around(range));
+}
 
 class LandmarkTracker : public SegmentTracker {
  public:
-  // REQUIRES: the objects that the search refers to outlive the tracker.
-  LandmarkTracker(const LandmarkSearch& search, LandmarkWindow window)
-      : search_(search),
-        method_(search.method),
-        line_(search.layer->line),
-        window_(std::move(window)) {}
+  LandmarkTracker(std::shared_ptr<const LandmarkSearch> search,
+                  std::shared_ptr<const SegmentLayer> layer, LandmarkWindow window)
+      : search_(std::move(search)), layer_(std::move(layer)), window_(std::move(window)) {}
 
   // Initializes the belief near `along_m` from this frame.
   TrackingResult begin(SharedFrame& frame, double along_m,
                        const std::optional<LearnedCamera>& camera);
 
+  const std::shared_ptr<const SegmentLayer>& layer() const override { return layer_; }
   void observe(const Odometry& odometry) override;
   TrackedPose pose_at(double timestamp_s) const override;
   AlongRange needed(double timestamp_s) const override;
@@ -55,6 +60,14 @@ class LandmarkTracker : public SegmentTracker {
     double lateral_sigma_m = 0;
   };
 
+  const LandmarkMethod& method() const { return search_->method; }
+  const RouteLine& line() const { return layer_->line; }
+  double quantization_step() const { return layer_->parameters().projection->quantization_step(); }
+
+  void follow_road(const HeldMap& held, const PoseBelief& belief);
+  void move_to(const UnrolledSegment& segment);
+  double mismatch_m(const UnrolledSegment& segment, const PoseBelief& belief, double along_m) const;
+  Covered cover(const HeldMap& held, const AlongRange& region);
   std::optional<PoseEstimate> track_landmarks(const CompactFrame& frame, const PoseBelief& before,
                                               const AlongRange& region) const;
   std::optional<PoseEstimate> relocalize(const CompactFrame& frame, const PoseBelief& before,
@@ -76,10 +89,10 @@ class LandmarkTracker : public SegmentTracker {
   void recenter_frame();
   void report_estimates(const PoseEstimate& estimate, const CompactFrame& frame) const;
 
-  const LandmarkSearch& search_;
-  const LandmarkMethod& method_;
-  const RouteLine& line_;
+  std::shared_ptr<const LandmarkSearch> search_;
+  std::shared_ptr<const SegmentLayer> layer_;  // the current segment
   LandmarkWindow window_;
+  AlongRange mapped_;       // the arc length over which the road is held, before and after, too
   PoseBelief belief_;       // in the window's tangent frame
   double timestamp_s_ = 0;  // of the belief
   double last_along_m_ = 0;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <variant>
 
 #include "client/fetch/tile_provider.h"
 #include "client/localize/hypothesis.h"
 #include "client/localize/relocalization_check.h"
+#include "client/localize/unrolled_road.h"
 #include "schema/geo/near.h"
 
 namespace milepost {
@@ -18,6 +20,7 @@ constexpr double kMaxOdometryAgeS = 0.5;   // of a reading used when a hypothesi
 constexpr std::size_t kMaxCandidates = 4;  // segments searched
 constexpr double kElsewhereM = 5;          // minimum sigma of "elsewhere" ...
 constexpr double kUnknownM = 30;           // ... and its sigma without a GNSS fix
+constexpr double kLeftSigmaM = 1;          // minimum sigma of a hypothesis that left the map
 constexpr double kDoubt = -1;              // log Bayes factor of a frame that causes doubt
 
 // No hypothesis is accepted: all are tested against each other and elsewhere.
@@ -43,6 +46,12 @@ struct Tracking {
   std::optional<double> doubt = {};
 };
 
+// A segment that was searched recently.
+struct OpenSegment {
+  std::shared_ptr<const SegmentLayer> layer;
+  std::unique_ptr<Relocalizer> relocalizer;
+};
+
 // The result of searching around a position.
 struct NearbySearch {
   // Distance of the nearest segment, infinite if none is near; none while unknown.
@@ -64,20 +73,23 @@ struct Localizer::Impl {
   std::optional<GnssFix> gnss;       // the latest
   std::optional<Odometry> odometry;  // the latest
   std::variant<Searching, Tracking> state = Searching{};
-  std::vector<std::shared_ptr<OpenSegment>> segments;  // recently opened, the latest last
+  std::vector<OpenSegment> segments;  // recently opened, the latest last
   std::optional<Error> last_error;
 
   Result<Fix> search(SharedFrame& frame);
   Result<Fix> track(SharedFrame& frame);
+  Result<Fix> leave(SharedFrame& frame);
 
   std::optional<GnssFix> fresh(const std::optional<GnssFix>& position, double timestamp_s) const;
   Surroundings surroundings(const GnssFix& around) const;
   double start_reach_m(const GnssFix& around, double timestamp_s) const;
   NearbySearch relocalize_nearby(SharedFrame& frame, const GnssFix& around, Searching& searching);
-  Result<std::shared_ptr<OpenSegment>> opened(const std::shared_ptr<const SegmentLayer>& layer);
+  Result<Relocalizer*> relocalizer_on(const std::shared_ptr<const SegmentLayer>& layer);
+  std::optional<GnssFix> left_at(const Searching& searching, double timestamp_s) const;
   void carry(Searching& searching, SharedFrame& frame);
   Fix weighed(Searching& searching, double timestamp_s);
-  void check_by_relocalization(Tracking& tracking, SharedFrame& frame) const;
+  Fix unclaimed(const Searching& searching, double timestamp_s) const;
+  void check_by_relocalization(Tracking& tracking, SharedFrame& frame);
   void claim(Hypothesis hypothesis);
   Wants wants(double timestamp_s, const HeldMap& held) const;
   Fix located(const Hypothesis& hypothesis, FixStatus status) const;
@@ -107,6 +119,38 @@ Searching lost_from(const Hypothesis& hypothesis, double timestamp_s) {
 void widen_in_plan(GeoCameraPose& camera, double sigma_m) {
   camera.covariance[0] += sigma_m * sigma_m;
   camera.covariance[7] += sigma_m * sigma_m;
+}
+
+// Whether the hypothesis' segment ends within `ahead_m`.
+bool is_near_end(const Hypothesis& hypothesis, double ahead_m) {
+  return hypothesis.tracker->pose().along_m + ahead_m > hypothesis.layer().line.length_m();
+}
+
+// Whether a pose beyond an end of its segment is on a segment that continues it.
+bool leads_on(const Hypothesis& hypothesis, const TrackedPose& pose, const HeldMap& held) {
+  const AlongRange around = AlongRange{pose.along_m, pose.along_m}.widened(kEndMarginM);
+  const auto road = unrolled_road(held, hypothesis.tracker->layer(), around);
+  return std::ranges::any_of(road, [](const UnrolledSegment& segment) {
+    return segment.side == RoadSide::ahead || segment.side == RoadSide::behind;
+  });
+}
+
+// Of a method that knows the arc length only: the hypothesis on each branch, once it is beyond the
+// end of its segment.
+std::vector<Hypothesis> branches_of(const Hypothesis& hypothesis, const TrackedPose& pose,
+                                    const HeldMap& held) {
+  std::vector<Hypothesis> branches;
+  constexpr double kWithinOverlapM = 2.5;  // frames of the map end with it
+  const double length_m = hypothesis.layer().line.length_m();
+  if (pose.along_m <= length_m - kWithinOverlapM) return branches;
+  for (const UnrolledSegment& segment :
+       unrolled_road(held, hypothesis.tracker->layer(), {length_m, length_m})) {
+    if (segment.side != RoadSide::ahead || segment.junctions > 1) continue;
+    if (pose.along_m <= std::min(length_m, segment.offset_m + kWithinOverlapM)) continue;
+    if (auto there = hypothesis.continued_on(segment.layer, segment.offset_m))
+      branches.push_back(std::move(*there));
+  }
+  return branches;
 }
 
 // Whether the segment leads in the vehicle's heading, if that is known.
@@ -163,8 +207,7 @@ Fix Localizer::fix_at(double timestamp_s) const {
   }
   const Hypothesis& hypothesis = tracking->hypothesis;
   const TrackedPose position = hypothesis.tracker->pose_at(timestamp_s);
-  if (!hypothesis.is_on_segment(position.along_m))
-    return unlocated(timestamp_s, FixStatus::off_map);
+  if (!hypothesis.is_on_segment(position)) return unlocated(timestamp_s, FixStatus::off_map);
   Fix fix = impl_->located(hypothesis, position, timestamp_s, FixStatus::predicted);
   if (tracking->doubt) impl_->widen(fix, *tracking->doubt, hypothesis, {});
   return fix;
@@ -186,6 +229,18 @@ bool Localizer::wait_for_tiles(double timestamp_s, SteadyTime deadline, const St
   }
 }
 
+// Where a hypothesis that left the map is now, by its motion, while that is known well enough.
+std::optional<GnssFix> Localizer::Impl::left_at(const Searching& searching,
+                                                double timestamp_s) const {
+  if (!searching.left) return std::nullopt;
+  const TrackedPose pose = searching.left->tracker->pose_at(timestamp_s);
+  if (!pose.full) return std::nullopt;
+  const auto& covariance = pose.full->camera.covariance;
+  const double sigma_m = std::sqrt(covariance[0] + covariance[7]);
+  if (sigma_m > kUnknownM) return std::nullopt;
+  return GnssFix{timestamp_s, pose.full->camera.position, std::max(sigma_m, kLeftSigmaM)};
+}
+
 // The fix, unless it is too old to start from or to contradict.
 std::optional<GnssFix> Localizer::Impl::fresh(const std::optional<GnssFix>& position,
                                               double timestamp_s) const {
@@ -193,21 +248,20 @@ std::optional<GnssFix> Localizer::Impl::fresh(const std::optional<GnssFix>& posi
   return is_fresh ? position : std::nullopt;
 }
 
-Result<std::shared_ptr<OpenSegment>> Localizer::Impl::opened(
+Result<Relocalizer*> Localizer::Impl::relocalizer_on(
     const std::shared_ptr<const SegmentLayer>& layer) {
-  for (const std::shared_ptr<OpenSegment>& segment : segments) {
-    if (segment->layer == layer) return segment;
+  constexpr std::size_t kKept = 8;
+  const auto known = std::ranges::find(segments, layer, &OpenSegment::layer);
+  if (known != segments.end()) {
+    std::rotate(known, known + 1, segments.end());
+    return segments.back().relocalizer.get();
   }
   Result<std::unique_ptr<Relocalizer>> relocalizer =
-      settings.method.make_relocalizer(*layer, camera, settings.method_settings);
+      settings.method.make_relocalizer(layer, camera, settings.method_settings);
   if (!relocalizer) return relocalizer.error();
-  auto segment = std::make_shared<OpenSegment>(OpenSegment{layer, std::move(*relocalizer)});
-  // Segments without a hypothesis are closed, the oldest first.
-  const auto unused =
-      std::ranges::find_if(segments, [](const auto& old) { return old.use_count() == 1; });
-  if (segments.size() >= kMaxCandidates && unused != segments.end()) segments.erase(unused);
-  segments.push_back(segment);
-  return segment;
+  if (segments.size() >= kKept) segments.erase(segments.begin());
+  segments.push_back({layer, std::move(*relocalizer)});
+  return segments.back().relocalizer.get();
 }
 
 // The circle in which segments may be the one that a position is on.
@@ -240,26 +294,26 @@ NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFi
       continue;
     }
     if (!leads_ahead(held->layer->line, where.along_m, around)) continue;
-    const Result<std::shared_ptr<OpenSegment>> segment = opened(held->layer);
-    if (!segment) {
-      nearby.failure = segment.error();
+    const Result<Relocalizer*> relocalizer = relocalizer_on(held->layer);
+    if (!relocalizer) {
+      nearby.failure = relocalizer.error();
       continue;
     }
     const double reach_m = start_reach_m(around, frame.timestamp_s());
-    Relocalization found = (*segment)->relocalizer->relocalize(
-        frame, AlongRange{where.along_m, where.along_m}.widened(reach_m), std::nullopt);
+    Relocalization found =
+        (*relocalizer)
+            ->relocalize(frame, AlongRange{where.along_m, where.along_m}.widened(reach_m),
+                         std::nullopt);
     if (found.failure) nearby.failure = found.failure;
     for (RelocalizationCandidate& candidate : found.candidates) {
-      Hypothesis hypothesis{*segment,
-                            std::move(candidate.tracker),
+      Hypothesis hypothesis{std::move(candidate.tracker),
                             LogOdds(settings.odds),
                             GnssLikelihood(settings.receiver),
                             frame.timestamp_s(),
                             true,
                             candidate.log_bayes_factor,
                             candidate.matches};
-      const double along_m = hypothesis.tracker->pose().along_m;
-      if (!hypothesis.is_on_segment(along_m)) continue;
+      if (!hypothesis.is_on_segment(hypothesis.tracker->pose())) continue;
       if (searching.left) hypothesis.odds.add(log_density_after(*searching.left, hypothesis));
       if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)
         hypothesis.tracker->observe(*odometry);
@@ -271,12 +325,20 @@ NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFi
 
 // Advances the hypotheses that are not at this frame yet.
 void Localizer::Impl::carry(Searching& searching, SharedFrame& frame) {
+  std::vector<Hypothesis> branches;
+  std::erase_if(searching.hypotheses, [&](const Hypothesis& hypothesis) {
+    auto found =
+        branches_of(hypothesis, hypothesis.tracker->pose_at(frame.timestamp_s()), frame.held());
+    std::ranges::move(found, std::back_inserter(branches));
+    return !found.empty();
+  });
+  std::ranges::move(branches, std::back_inserter(searching.hypotheses));
   const auto is_over = [&](Hypothesis& hypothesis) {
     if (hypothesis.timestamp_s == frame.timestamp_s()) return false;
     const TrackingResult result = hypothesis.advance(frame);
     if (result.failure) last_error = result.failure;
     const bool is_gone = result.failure && result.failure->code == ErrorCode::gone;
-    const bool has_left = !hypothesis.is_on_segment(hypothesis.tracker->pose().along_m);
+    const bool has_left = !hypothesis.is_on_segment(hypothesis.tracker->pose());
     if (has_left && searching.waiting == FixStatus::lost) searching.leave(std::move(hypothesis));
     return is_gone || has_left;
   };
@@ -287,7 +349,8 @@ Result<Fix> Localizer::Impl::search(SharedFrame& frame) {
   auto& searching = std::get<Searching>(state);
   carry(searching, frame);
   const std::optional<GnssFix> reading = fresh(gnss, frame.timestamp_s());
-  const auto around = reading ? reading : fresh(searching.lost_at, frame.timestamp_s());
+  auto around = reading ? reading : fresh(searching.lost_at, frame.timestamp_s());
+  if (!around) around = left_at(searching, frame.timestamp_s());
   if (around) {
     const NearbySearch nearby = relocalize_nearby(frame, *around, searching);
     if (nearby.failure) {
@@ -310,12 +373,11 @@ Result<Fix> Localizer::Impl::search(SharedFrame& frame) {
 
 // The result while several hypotheses are tested.
 Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
-  if (searching.hypotheses.empty()) return unlocated(timestamp_s, searching.waiting);
+  if (searching.hypotheses.empty()) return unclaimed(searching, timestamp_s);
   Hypothesis& best = searching.hypotheses.front();
   const double log_odds = log_odds_of_first(searching.hypotheses);
   const bool was_lost = searching.waiting == FixStatus::lost;
-  if (log_odds < 0 || (was_lost && !best.measured))
-    return unlocated(timestamp_s, searching.waiting);
+  if (log_odds < 0 || (was_lost && !best.measured)) return unclaimed(searching, timestamp_s);
   if (log_odds < settings.odds.claim || !best.measured || best.apart_m > kAgreedM) {
     Fix fix = located(best, FixStatus::initializing);
     widen(fix, best.odds.log(), best, searching.hypotheses);
@@ -325,31 +387,59 @@ Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
   return located(std::get<Tracking>(state).hypothesis, FixStatus::tracking);
 }
 
+// The result without any hypothesis to tell: off the map the pose that the motion carries on.
+Fix Localizer::Impl::unclaimed(const Searching& searching, double timestamp_s) const {
+  Fix fix = unlocated(timestamp_s, searching.waiting);
+  if (searching.waiting != FixStatus::off_map || !left_at(searching, timestamp_s)) return fix;
+  const TrackedPose pose = searching.left->tracker->pose_at(timestamp_s);
+  fix.camera = pose.full->camera;
+  fix.position = fix.camera->position;
+  fix.heading_deg = fix.camera->heading_deg;
+  fix.sigma_m = std::sqrt(fix.camera->covariance[0] + fix.camera->covariance[7]);
+  return fix;
+}
+
 void Localizer::Impl::claim(Hypothesis hypothesis) { state = Tracking{std::move(hypothesis)}; }
 
 // Relocalizes and compares the poses, if that is due.
-void Localizer::Impl::check_by_relocalization(Tracking& tracking, SharedFrame& frame) const {
+void Localizer::Impl::check_by_relocalization(Tracking& tracking, SharedFrame& frame) {
   Hypothesis& hypothesis = tracking.hypothesis;
   const double along_m = hypothesis.tracker->pose().along_m;
-  if (!settings.method.relocalizes_while_tracking || !tracking.relocalization_check.is_due(along_m))
-    return;
+  const bool is_due = settings.method.relocalizes_while_tracking &&
+                      tracking.relocalization_check.is_due(hypothesis.way_m());
+  if (!is_due) return;
   const AlongRange around = AlongRange{along_m, along_m}.widened(kSameHypothesisM);
-  Relocalization found = hypothesis.segment->relocalizer->relocalize(
-      frame, around, tracking.relocalization_check.camera(hypothesis));
+  const Result<Relocalizer*> relocalizer = relocalizer_on(hypothesis.tracker->layer());
+  if (!relocalizer) return;
+  Relocalization found =
+      (*relocalizer)->relocalize(frame, around, tracking.relocalization_check.camera(hypothesis));
   if (!found.failure)
     tracking.relocalization_check.compare(hypothesis, std::move(found.candidates));
+}
+
+// The tracked hypothesis has left the map, or its segment: another may begin here.
+Result<Fix> Localizer::Impl::leave(SharedFrame& frame) {
+  Searching left;
+  left.leave(std::move(std::get<Tracking>(state).hypothesis));
+  state = std::move(left);
+  const Result<Fix> elsewhere = search(frame);
+  if (elsewhere && elsewhere->along_m) return elsewhere;
+  return unclaimed(std::get<Searching>(state), frame.timestamp_s());
 }
 
 Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
   auto& tracking = std::get<Tracking>(state);
   Hypothesis& hypothesis = tracking.hypothesis;
-  if (!hypothesis.is_on_segment(hypothesis.tracker->pose_at(frame.timestamp_s()).along_m)) {
-    Searching left;
-    left.leave(std::move(hypothesis));
-    state = std::move(left);
-    const Result<Fix> elsewhere = search(frame);  // another segment may begin here
-    if (elsewhere && elsewhere->along_m) return elsewhere;
-    return unlocated(frame.timestamp_s(), FixStatus::off_map);
+  const TrackedPose expected = hypothesis.tracker->pose_at(frame.timestamp_s());
+  if (std::vector<Hypothesis> branches = branches_of(hypothesis, expected, frame.held());
+      !branches.empty()) {
+    if (branches.size() > 1) {
+      state = Searching{FixStatus::initializing, std::move(branches)};
+      return search(frame);
+    }
+    hypothesis = std::move(branches.front());
+  } else if (!hypothesis.is_on_segment(expected) && !leads_on(hypothesis, expected, frame.held())) {
+    return leave(frame);
   }
   const TrackingResult result = hypothesis.advance(frame);
   if (result.failure) last_error = result.failure;
@@ -357,6 +447,7 @@ Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
     state = lost_from(hypothesis, frame.timestamp_s());
     return search(frame);
   }
+  if (!is_on_road(hypothesis.tracker->pose())) return leave(frame);
   tracking.doubt.reset();
   if (hypothesis.measured) check_by_relocalization(tracking, frame);
   hypothesis.weigh(hypothesis.log_bayes_factor, fresh(gnss, frame.timestamp_s()));
@@ -432,29 +523,44 @@ void Localizer::Impl::widen(Fix& fix, double log_odds, const Hypothesis& hypothe
 
 // The map data that a frame at that time, and those after it, need.
 Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
-  enum : int { kNow, kPerhaps, kAhead };
+  enum : int { kNow, kSoon, kPerhaps, kAhead };
   const WindowReach& reach = settings.method_settings.reach;
   Wants wants;
   const auto want = [&](const SegmentKey& key, const AlongRange& range, int priority) {
     wants.tiles.push_back({key, range, priority});
   };
+  // A range of the way that a hypothesis is on, ahead on all branches and behind.
+  const auto want_way = [&](const Hypothesis& hypothesis, const AlongRange& range, int priority) {
+    for (const UnrolledSegment& segment : unrolled_road(held, hypothesis.tracker->layer(), range)) {
+      if (segment.side == RoadSide::beside) continue;
+      const bool is_likely = segment.side == RoadSide::current || segment.is_main_way;
+      want(segment.layer->key, range.shifted(-segment.offset_m),
+           is_likely ? priority : priority + 1);
+      for (const Successor& successor : segment.layer->successors) {  // whose length is unknown
+        const auto key = key_of(successor, *segment.layer, held);
+        const AlongRange there = range.shifted(-segment.extent().to_m);
+        if (key && there.to_m >= 0 && held.find(*key) == nullptr) want(*key, there, priority + 1);
+      }
+    }
+  };
   const auto want_place = [&](const Hypothesis& hypothesis) {
     // The region tracked, plus the region of relocalization.
     constexpr double kSecondLookM = kSameHypothesisM + 10;
     const AlongRange needed = hypothesis.tracker->needed(timestamp_s).widened(kSecondLookM);
-    want(hypothesis.layer().key, reach.around(needed), kNow);
+    want_way(hypothesis, reach.around(needed), kNow);
   };
   std::optional<GnssFix> around = fresh(gnss, timestamp_s);
   const auto* tracking = std::get_if<Tracking>(&state);
   if (tracking) {
     want_place(tracking->hypothesis);
     const double at_m = tracking->hypothesis.tracker->pose().along_m;
-    want(tracking->hypothesis.layer().key, {at_m, at_m + settings.prefetch_m}, kAhead);
+    want_way(tracking->hypothesis, {at_m, at_m + settings.prefetch_m}, kAhead);
     if (!around) around = GnssFix{timestamp_s, tracking->hypothesis.position(), 0};
   } else {
     const auto& searching = std::get<Searching>(state);
     for (const Hypothesis& hypothesis : searching.hypotheses) want_place(hypothesis);
     if (!around) around = fresh(searching.lost_at, timestamp_s);
+    if (!around) around = left_at(searching, timestamp_s);
   }
   if (!around) return wants;
   wants.around = surroundings(*around);
@@ -465,7 +571,7 @@ Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
     const SegmentKey key = {where.version, where.segment};
     // Segments on which the vehicle may be relocalized; other segments near the end of this one.
     const bool is_of_use = !tracking || key == tracking->hypothesis.layer().key ||
-                           tracking->hypothesis.is_near_end(settings.prefetch_m);
+                           is_near_end(tracking->hypothesis, settings.prefetch_m);
     if (!is_of_use) continue;
     const AlongRange looked_at =
         AlongRange{where.along_m, where.along_m}.widened(start_reach_m(*around, timestamp_s));

@@ -25,10 +25,11 @@ struct MethodSettings {
   std::function<void(const TrackletEstimate&)> on_estimate = {};
 };
 
-// Creates the relocalizer of one segment. REQUIRES: the layer outlives the relocalizer and its
-// trackers. Errors: corrupt (the layer holds other items than the method needs).
+// Creates the relocalizer of one segment. Errors: corrupt (the layer holds other items than the
+// method needs).
 using MakeRelocalizer = std::function<Result<std::unique_ptr<Relocalizer>>(
-    const SegmentLayer& layer, const Camera& camera, const MethodSettings& settings)>;
+    const std::shared_ptr<const SegmentLayer>& layer, const Camera& camera,
+    const MethodSettings& settings)>;
 
 struct Method {
   std::string name;

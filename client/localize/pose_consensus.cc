@@ -49,21 +49,15 @@ std::optional<PoseEstimate> estimate_by_consensus(const PoseSolver& solver,
 std::vector<PositionEstimate> along_by_scale(const std::vector<LandmarkMatch>& matches,
                                              const std::vector<Feature>& features,
                                              const std::vector<LocalLandmark>& landmarks,
-                                             const Pinhole& camera, const RouteLine& line,
-                                             const LocalFrame& window, double scale_sigma) {
+                                             const Pinhole& camera, double scale_sigma) {
   std::vector<PositionEstimate> estimates;
   estimates.reserve(matches.size());
   for (const LandmarkMatch& match : matches) {
     const LocalLandmark& landmark = landmarks[match.landmark];
     const double depth_m = landmark.size_m * camera.focal_px() / features[match.feature].scale_px;
-    const double middle_m = (landmark.along.from_m + landmark.along.to_m) / 2;
-    const EnuPoint middle = window.enu_from_geo(line.point_at(middle_m));
-    const double heading_rad = line.heading_deg_at(middle_m) * kRadPerDeg;
-    const double ahead_m = (landmark.enu_m.x() - middle.east_m) * std::sin(heading_rad) +
-                           (landmark.enu_m.y() - middle.north_m) * std::cos(heading_rad);
     const double sigma = std::hypot(scale_sigma, landmark.size_sigma);
-    estimates.push_back(
-        {middle_m + ahead_m - depth_m, std::hypot(depth_m * sigma, landmark.depth_sigma_m)});
+    estimates.push_back({landmark.mapped_at_m + landmark.mapped_ahead_m - depth_m,
+                         std::hypot(depth_m * sigma, landmark.depth_sigma_m)});
   }
   return estimates;
 }

@@ -26,12 +26,10 @@ std::optional<PoseEstimate> estimate_by_consensus(const PoseSolver& solver,
                                                   const ConsensusSettings& settings);
 
 // The arc length estimated from the scale of each match, for a camera that looks along the line
-// (the tracklet paper's Eq. 3 with the variable -1/scale). `window` is the tangent frame of the
-// landmarks.
+// (the tracklet paper's Eq. 3 with the variable -1/scale).
 std::vector<PositionEstimate> along_by_scale(const std::vector<LandmarkMatch>& matches,
                                              const std::vector<Feature>& features,
                                              const std::vector<LocalLandmark>& landmarks,
-                                             const Pinhole& camera, const RouteLine& line,
-                                             const LocalFrame& window, double scale_sigma);
+                                             const Pinhole& camera, double scale_sigma);
 
 }  // namespace milepost

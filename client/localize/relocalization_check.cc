@@ -15,8 +15,8 @@ constexpr int kLooksAgainst = 2;        // consecutive, until the belief is repl
 
 }  // namespace
 
-bool RelocalizationCheck::is_due(double along_m) const {
-  return looks_ < kFirstLooks || apart_m_ > 0 || std::abs(along_m - looked_from_m_) >= kLookAgainM;
+bool RelocalizationCheck::is_due(double way_m) const {
+  return looks_ < kFirstLooks || apart_m_ > 0 || std::abs(way_m - looked_from_m_) >= kLookAgainM;
 }
 
 std::optional<LearnedCamera> RelocalizationCheck::camera(const Hypothesis& hypothesis) const {
@@ -27,7 +27,7 @@ std::optional<LearnedCamera> RelocalizationCheck::camera(const Hypothesis& hypot
 void RelocalizationCheck::compare(Hypothesis& hypothesis,
                                   std::vector<RelocalizationCandidate> candidates) {
   ++looks_;
-  looked_from_m_ = hypothesis.tracker->pose().along_m;
+  looked_from_m_ = hypothesis.way_m();
   const auto most = std::ranges::max_element(candidates, {}, &RelocalizationCandidate::matches);
   const double apart_m =
       most == candidates.end()

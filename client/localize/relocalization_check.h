@@ -13,7 +13,7 @@ namespace milepost {
 class RelocalizationCheck {
  public:
   // At every frame at first and while the pose is uncertain, then every few metres.
-  bool is_due(double along_m) const;
+  bool is_due(double way_m) const;
   // The camera calibration for relocalization: the given one (none) at first and while the pose is
   // uncertain, since an estimate may then be as wrong as the pose; later the estimated one.
   std::optional<LearnedCamera> camera(const Hypothesis& hypothesis) const;

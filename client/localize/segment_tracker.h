@@ -1,4 +1,4 @@
-// The interfaces of a method's relocalizer and tracker on one segment.
+// The interfaces of a method's relocalizer and tracker.
 #pragma once
 
 #include <memory>
@@ -32,10 +32,21 @@ struct LearnedCamera {
   Eigen::Matrix3d covariance;
 };
 
-// A belief of the camera's position on one segment. Not safe to use from several threads at once.
+// A belief of the camera's position on the road. Not safe to use from several threads at once.
 class SegmentTracker {
  public:
   virtual ~SegmentTracker() = default;
+
+  // The segment that the position is on. Methods that know the camera's pose follow the road
+  // through junctions: it changes in track().
+  virtual const std::shared_ptr<const SegmentLayer>& layer() const = 0;
+  // For methods that know the arc length only: the same belief, as if the vehicle had continued on
+  // a successor, which begins at `begin_m` of this segment. Null for methods that follow the road
+  // by themselves.
+  virtual std::unique_ptr<SegmentTracker> continued_on(
+      const std::shared_ptr<const SegmentLayer>& /*successor*/, double /*begin_m*/) const {
+    return nullptr;
+  }
 
   // Updates the belief with an odometry reading at its time, not before the last frame. Methods
   // that do not use odometry, like those of the papers, ignore it.

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <thread>
 
 #include <opencv2/core/utility.hpp>
 
 #include "mapper/cli/commands.h"
+#include "mapper/codebook/codebook.h"
 #include "mapper/pipeline/build_map.h"
 #include "schema/base/digits.h"
 #include "schema/base/output_file.h"
@@ -18,8 +20,9 @@ namespace {
 constexpr const char* kBuildDescription =
     R"(Builds a map from recorded drives.
 
-Each drive becomes a segment of tracklets: SIFT features tracked over consecutive frames.
-For the default method each becomes a landmark, and the most informative are kept;
+All drives make one road network: its segments end where drives part or join, and where several
+drove, a segment takes one pass. Segments hold tracklets: SIFT features tracked over consecutive
+frames. For the default method each becomes a landmark, and the most informative are kept;
 with --lab there is a layer for each method to compare with, too. A drive in which nothing is
 found ends the build, and an old map stays.
 Example: milepost-mapper build --drive drives/monday --map maps/town.map)";
@@ -29,6 +32,7 @@ constexpr const char* kBuildSettings = "Settings (each changes the map)";
 struct BuildOptions {
   std::vector<std::string> drives;
   std::string map;
+  std::string codebook;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   BuildSettings settings;
 };
@@ -43,6 +47,18 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
       ->option_text("FILE");
   add_number(app, "--jobs", options.jobs, "N",
              "Threads that extract features; the map is the same for any number", 1, 256);
+  app.add_option("--codebook", options.codebook,
+                 "Codebook file instead of the one that ships with milepost")
+      ->option_text("FILE");
+  app.add_option(
+         "--passes", options.settings.passes,
+         "Pass that a segment takes where several drove: that in which most is seen, or the "
+         "latest")
+      ->transform(CLI::CheckedTransformer(
+                      std::map<std::string, PassPolicy>{{"keep-best", PassPolicy::keep_best},
+                                                        {"replace", PassPolicy::replace}})
+                      .description(""))
+      ->option_text("keep-best|replace");
   app.add_flag("--lab", options.settings.lab, "Add the layers of the methods for comparison");
   app.add_flag("--allow-empty", options.settings.allow_empty,
                "Write the map even if nothing was found for it");
@@ -85,8 +101,8 @@ Status check_map_is_free(const std::vector<Drive>& drives, const std::string& ma
 }
 
 std::string summary_line(const BuildReport& report, const std::string& map) {
-  const std::string segments = std::to_string(report.drives.size()) +
-                               (report.drives.size() == 1 ? " segment of " : " segments of ");
+  const std::string segments =
+      std::to_string(report.segments) + (report.segments == 1 ? " segment of " : " segments of ");
   const double tracklets_a_metre = static_cast<double>(report.tracklets) / report.length_m;
   const double kb_a_metre = static_cast<double>(report.tracklet_bytes) / 1000 / report.length_m;
   return map + ": build " + report.build + ", " + segments + fixed(report.length_m, 1) + " m, " +
@@ -95,7 +111,12 @@ std::string summary_line(const BuildReport& report, const std::string& map) {
          std::to_string(report.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m";
 }
 
-int build(const std::string& program, const BuildOptions& options) {
+int build(const std::string& program, BuildOptions options) {
+  if (!options.codebook.empty()) {
+    Result<PcaProjection> codebook = read_codebook(options.codebook);
+    if (!codebook) return fail(program, codebook.error());
+    options.settings.codebook = std::move(*codebook);
+  }
   std::vector<Drive> drives;
   for (const std::string& folder : options.drives) {
     Result<Drive> drive = read_drive(folder);
@@ -117,8 +138,11 @@ int build(const std::string& program, const BuildOptions& options) {
                      });
   }();
   if (!report) return fail(program, report.error());
+  for (const NetworkFinding& finding : report->findings) {
+    warn(program, {ErrorCode::invalid_input, finding.where, finding.what, finding.hint});
+  }
   for (const DriveReport& drive : report->drives) {
-    if (drive.tracklets == 0) warn(program, nothing_found(drive));
+    if (drive.frames > 0 && drive.tracklets == 0) warn(program, nothing_found(drive));
   }
   std::cout << summary_line(*report, options.map) << "\n";
   return kExitDone;

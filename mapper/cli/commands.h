@@ -6,6 +6,7 @@
 namespace milepost {
 
 RunCommand add_build(CLI::App& app);
+RunCommand add_codebook(CLI::App& app);
 RunCommand add_aerial(CLI::App& app);
 RunCommand add_export(CLI::App& app);
 

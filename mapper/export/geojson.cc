@@ -78,6 +78,25 @@ Positions positions_of(const std::vector<StoredVertex>& vertices) {
   return positions;
 }
 
+// Each with the name of its map: `own_map` for those of the map itself.
+nlohmann::ordered_json successors_json(const std::vector<Successor>& successors,
+                                       const std::string& own_map) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Successor& successor : successors) {
+    list.push_back(
+        {{"map", successor.map.empty() ? own_map : successor.map}, {"segment", successor.segment}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json passes_json(const std::vector<StoredPass>& passes) {
+  auto list = nlohmann::ordered_json::array();
+  for (const StoredPass& pass : passes) {
+    list.push_back({{"drive", pass.drive}, {"from_m", pass.from_m}, {"to_m", pass.to_m}});
+  }
+  return list;
+}
+
 Position position_of(const WallEnd& end) { return {end.longitude_deg, end.latitude_deg}; }
 
 // The possible values of --layer, for messages.
@@ -114,7 +133,10 @@ Result<GeoJson> segments_geojson(const MapReader& map) {
     }
     collection.add(
         positions_of(segment->vertices),
-        {{"id", id}, {"length_m", segment->length_m}, {"successors", segment->successors}});
+        {{"id", id},
+         {"length_m", segment->length_m},
+         {"successors", successors_json(segment->successors, map.file().stem().string())},
+         {"passes", passes_json(segment->passes)}});
   }
   return std::move(collection).finish();
 }

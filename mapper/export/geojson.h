@@ -18,8 +18,9 @@ struct GeoJson {
 };
 
 // Each segment's line in WGS84, [longitude_deg, latitude_deg, altitude_m], with the properties id,
-// length_m and successors. A line across longitude 180 is split there into a MultiLineString (RFC
-// 7946, 3.1.9). Errors: those of MapReader; corrupt (a segment without a line).
+// length_m, successors (each with `map` and `segment`) and passes (`drive`, `from_m`, `to_m`). A
+// line across longitude 180 is split there into a MultiLineString (RFC 7946, 3.1.9). Errors: those
+// of MapReader; corrupt (a segment without a line).
 Result<GeoJson> segments_geojson(const MapReader& map);
 
 // Each wall of a layer once, from its begin to its end in WGS84, [longitude_deg, latitude_deg],

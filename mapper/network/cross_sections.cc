@@ -29,13 +29,15 @@ void CrossSections::add(const Alignment& same) {
     partners_[same.a][same.first + i].push_back({same.b, matches[i].along_b_m});
   }
   std::size_t i = 0;  // b's state lies between the matches i and i + 1
-  const double last_m = matches.back().along_b_m;
-  for (double b_m = std::ceil(matches.front().along_b_m); b_m <= last_m; ++b_m) {
+  const auto first_state = static_cast<std::size_t>(std::ceil(matches.front().along_b_m));
+  const auto last_state = static_cast<std::size_t>(matches.back().along_b_m);
+  for (std::size_t state = first_state; state <= last_state; ++state) {
+    const auto b_m = static_cast<double>(state);
     while (i + 2 < matches.size() && matches[i + 1].along_b_m < b_m) ++i;
     const double edge_m = matches[i + 1].along_b_m - matches[i].along_b_m;
     const double part = edge_m > 0 ? (b_m - matches[i].along_b_m) / edge_m : 0;
     const double along_a_m = static_cast<double>(same.first + i) + std::clamp(part, 0.0, 1.0);
-    partners_[same.b][static_cast<std::size_t>(b_m)].push_back({same.a, along_a_m});
+    partners_[same.b][state].push_back({same.a, along_a_m});
   }
 }
 

@@ -16,13 +16,17 @@ struct Change {
   bool holds = false;
 };
 
-// Whether each place goes on as one of the others, a metre further.
-bool go_on(const std::vector<Place>& places, const std::vector<Place>& others) {
+// Whether each place of one cross-section goes on as one of another, a metre away.
+bool all_occur(const std::vector<Place>& places, const std::vector<Place>& others) {
   return std::ranges::all_of(places, [&](const Place& place) {
     return std::ranges::any_of(others, [&](const Place& other) {
       return other.way == place.way && std::abs(other.along_m - place.along_m) < kSameVisitM / 2;
     });
   });
+}
+
+bool same_passes(const std::vector<Place>& a, const std::vector<Place>& b) {
+  return all_occur(a, b) && all_occur(b, a);
 }
 
 bool holds_change(const std::vector<Change>& changes, const AlongRange& range) {
@@ -36,10 +40,10 @@ void add_changes(std::size_t index, const Way& way, const CrossSections& section
   changes.push_back({{index, 0}});
   std::vector<Place> places = sections.places({index, 0});
   for (std::size_t i = 0; i + 1 < way.states.size(); ++i) {
-    const double along_m = static_cast<double>(i);
-    std::vector<Place> next = sections.places({index, along_m + 1});
-    if (!go_on(places, next) || !go_on(next, places)) changes.push_back({{index, along_m + 0.5}});
-    places = std::move(next);
+    const auto along_m = static_cast<double>(i);
+    std::vector<Place> further = sections.places({index, along_m + 1});
+    if (!same_passes(places, further)) changes.push_back({{index, along_m + 0.5}});
+    places = std::move(further);
   }
   const std::vector<Change> passes_change(
       changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end());
@@ -173,6 +177,23 @@ class JunctionClusters {
   std::vector<std::size_t> cluster_of_;
 };
 
+// Adds a cut at the nearest multiple of the grid, unless it is near an end. Two at one place are
+// one.
+void add_cut(const Change& change, const Way& way, const JunctionSettings& settings,
+             std::vector<Cut>& cuts) {
+  const double measured_m = change.place.along_m;
+  const double along_m =
+      std::round((way.begin_m + measured_m) / settings.grid_m) * settings.grid_m - way.begin_m;
+  const bool inside =
+      along_m >= settings.min_segment_m && along_m <= way.length_m - settings.min_segment_m;
+  if (!inside) return;
+  if (!cuts.empty() && cuts.back().along_m >= along_m) {
+    cuts.back().holds = cuts.back().holds || change.holds;
+  } else {
+    cuts.push_back({measured_m, along_m, change.holds});
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<Cut>> junction_cuts(const std::vector<Way>& ways,
@@ -188,17 +209,7 @@ std::vector<std::vector<Cut>> junction_cuts(const std::vector<Way>& ways,
                    [](const Change& a, const Change& b) { return a.place < b.place; });
   std::vector<std::vector<Cut>> cuts(ways.size());
   for (const Change& mean : means) {
-    const Way& way = ways[mean.place.way];
-    const double on_drive_m = way.begin_m + mean.place.along_m;
-    const double along_m = std::round(on_drive_m / settings.grid_m) * settings.grid_m - way.begin_m;
-    if (along_m < settings.min_segment_m || along_m > way.length_m - settings.min_segment_m)
-      continue;
-    std::vector<Cut>& of_way = cuts[mean.place.way];
-    if (!of_way.empty() && of_way.back().along_m >= along_m) {
-      of_way.back().holds = of_way.back().holds || mean.holds;
-    } else {
-      of_way.push_back({along_m, mean.holds});
-    }
+    add_cut(mean, ways[mean.place.way], settings, cuts[mean.place.way]);
   }
   return cuts;
 }

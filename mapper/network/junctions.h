@@ -10,13 +10,14 @@
 namespace milepost {
 
 struct Cut {
-  double along_m = 0;
+  double measured_m = 0;  // where the passes change
+  double along_m = 0;     // where the way is cut: the nearest multiple on its drive's forward way
   // Whether it stays though the same drives pass before and behind it: an end of a U-turn's arc.
   bool holds = false;
 };
 
 struct JunctionSettings {
-  double radius_m = 4;       // changes within a junction's radius are one cut
+  double radius_m = 3;       // changes within a junction's radius are one cut
   double grid_m = 5;         // cuts lie at multiples of this along their drive's forward way
   double min_segment_m = 5;  // a cut nearer to a way's end is left out
   UTurnSettings u_turn;

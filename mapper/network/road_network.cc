@@ -30,12 +30,21 @@ std::vector<Way> ways_by_name(const std::vector<NamedDrivenLines>& drives) {
   return ways;
 }
 
-std::vector<Pass> passes_of(const PieceGroup& group, const std::vector<Way>& ways) {
+Pass pass_of(const Piece& piece, const std::vector<Way>& ways) {
+  const Way& way = ways[piece.way];
+  return {way.drive, way.stretch, piece.from_m, piece.to_m};
+}
+
+// A segment runs on beyond its cut, so that the next one, whose line may be another drive's, begins
+// on it.
+std::vector<Pass> passes_of(const PieceGroup& group, const std::vector<Way>& ways,
+                            double overlap_m) {
   std::vector<Pass> passes;
   passes.reserve(group.size());
   for (const Piece& piece : group) {
-    const Way& way = ways[piece.way];
-    passes.push_back({way.drive, way.stretch, piece.from_m, piece.to_m});
+    Pass pass = pass_of(piece, ways);
+    pass.to_m = std::min(pass.to_m + overlap_m, ways[piece.way].length_m);
+    passes.push_back(pass);
   }
   return passes;
 }
@@ -44,27 +53,33 @@ long begin_of(const Piece& piece, const Way& way) {
   return std::lround(way.begin_m + piece.from_m);
 }
 
-// The segments' ids by where their passes begin.
-using IdsByBegin = std::map<Place, std::string>;
-
-IdsByBegin ids_by_begin(const std::vector<PieceGroup>& groups,
-                        const std::vector<NetworkSegment>& segments) {
-  IdsByBegin ids;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    for (const Piece& piece : groups[i]) ids[{piece.way, piece.from_m}] = segments[i].id;
-  }
-  return ids;
+NetworkFinding finding_of(const StackedPieces& stacked, const std::vector<Way>& ways,
+                          const std::vector<NamedDrivenLines>& drives) {
+  const auto place_of = [&](const Piece& piece) {
+    const Way& way = ways[piece.way];
+    return "drive '" + drives[way.drive].name + "' from metre " +
+           std::to_string(begin_of(piece, way));
+  };
+  return {
+      place_of(stacked.lower.front()) + " and " + place_of(stacked.upper.front()),
+      "they run over " +
+          std::to_string(std::lround(stacked.lower.front().to_m - stacked.lower.front().from_m)) +
+          " m in one place, and no drive changes between them: one road, or one above the "
+          "other; kept apart",
+      "map them with altitudes, or with a drive that changes between them"};
 }
 
+// The ids of the segments in which a group's pieces go on.
 std::vector<std::string> successors(const PieceGroup& group, std::size_t reference,
-                                    const IdsByBegin& ids) {
+                                    const std::map<Place, std::size_t>& by_begin,
+                                    const std::vector<NetworkSegment>& segments) {
   std::string own;
   std::set<std::string> others;
   for (std::size_t pass = 0; pass < group.size(); ++pass) {
-    const auto next = ids.find({group[pass].way, group[pass].to_m});
-    if (next == ids.end()) continue;
-    if (pass == reference) own = next->second;
-    others.insert(next->second);
+    const auto next = by_begin.find(group[pass].end());
+    if (next == by_begin.end()) continue;
+    if (pass == reference) own = segments[next->second].id;
+    others.insert(segments[next->second].id);
   }
   others.erase(own);
   std::vector<std::string> found(others.begin(), others.end());
@@ -84,30 +99,42 @@ std::string segment_id_of(const std::string& drive_name, long metre) {
 }
 
 RoadNetwork road_network(const std::vector<NamedDrivenLines>& drives,
-                         const NetworkSettings& settings, const ChooseReference& choose_reference) {
+                         const NetworkSettings& settings, const ChooseReference& choose_reference,
+                         const SameRoadByImages& same_road_by_images) {
   const std::vector<Way> ways = ways_by_name(drives);
   const CrossSections sections(ways,
                                same_road(alignments(ways, settings.alignment), settings.same_road));
-  const std::vector<PieceGroup> groups =
-      segmentation(ways, sections, junction_cuts(ways, sections, settings.junction));
+  SamePlace ask;
+  if (same_road_by_images) {
+    ask = [&](const Piece& a, const Piece& b) {
+      return same_road_by_images(pass_of(a, ways), pass_of(b, ways));
+    };
+  }
+  std::vector<StackedPieces> stacked;
+  const std::vector<PieceGroup> groups = joined(without_stacked(
+      joined(grouped_pieces(ways, sections, junction_cuts(ways, sections, settings.junction))),
+      ways, settings.stacked, ask, stacked));
 
   RoadNetwork network;
   for (const std::size_t drive : by_name(drives)) {
     std::ranges::copy(drives[drive].findings, std::back_inserter(network.findings));
   }
+  for (const StackedPieces& pieces : stacked) {
+    if (pieces.kept_apart) network.findings.push_back(finding_of(pieces, ways, drives));
+  }
   for (const PieceGroup& group : groups) {
     NetworkSegment segment;
-    segment.passes = passes_of(group, ways);
+    segment.passes = passes_of(group, ways, settings.overlap_m);
     segment.reference = choose_reference(segment.passes);
     const Piece& reference = group[segment.reference];
     segment.id = segment_id_of(drives[ways[reference.way].drive].name,
                                begin_of(reference, ways[reference.way]));
     network.segments.push_back(std::move(segment));
   }
-  const IdsByBegin ids = ids_by_begin(groups, network.segments);
+  const std::map<Place, std::size_t> by_begin = groups_by_begin(groups);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     NetworkSegment& segment = network.segments[i];
-    segment.successors = successors(groups[i], segment.reference, ids);
+    segment.successors = successors(groups[i], segment.reference, by_begin, network.segments);
   }
   std::ranges::sort(network.segments, {}, &NetworkSegment::id);
   return network;

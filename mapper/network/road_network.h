@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "mapper/network/finding.h"
 #include "mapper/network/junctions.h"
 #include "mapper/network/same_road.h"
+#include "mapper/network/stacked_roads.h"
 
 namespace milepost {
 
@@ -45,9 +47,11 @@ struct RoadNetwork {
 };
 
 struct NetworkSettings {
+  double overlap_m = 5;  // of a segment and its successors
   AlignmentSettings alignment;
   SameRoadSettings same_road;
   JunctionSettings junction;
+  StackedSettings stacked;
 };
 
 // The index of the pass that becomes the reference, of a segment's passes in their order. Must not
@@ -57,12 +61,17 @@ using ChooseReference = std::function<std::size_t(const std::vector<Pass>&)>;
 // The drive whose name comes first, where it first passed.
 std::size_t first_pass(const std::vector<Pass>& passes);
 
+// Whether images of two passes show the same road; nothing if they cannot tell. Asked only where
+// roads may lie one above the other, with the passes in the order of their drives' names.
+using SameRoadByImages = std::function<std::optional<bool>(const Pass& a, const Pass& b)>;
+
 // The network of all drives. It depends on their names and lines, not on their order, but for the
 // indices in passes. A drive changes ids only of segments that it passes or ends at.
 // REQUIRES: the drives' names differ.
 RoadNetwork road_network(const std::vector<NamedDrivenLines>& drives,
                          const NetworkSettings& settings,
-                         const ChooseReference& choose_reference = first_pass);
+                         const ChooseReference& choose_reference = first_pass,
+                         const SameRoadByImages& same_road_by_images = {});
 
 // "NAME-METRE"; of a name too long for the 64 characters of an id, its begin and a digest of it.
 std::string segment_id_of(const std::string& drive_name, long metre);

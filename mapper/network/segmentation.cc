@@ -1,43 +1,40 @@
 #include "mapper/network/segmentation.h"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace milepost {
 namespace {
 
 using Index = std::size_t;
-constexpr Index kNone = static_cast<Index>(-1);
 
-// All pieces, ordered: consecutive ones of a way follow each other.
+// All pieces, ordered by place.
 struct CutWays {
   std::vector<Piece> pieces;
-  std::vector<bool> cut_holds;  // by piece: that at its end
+  std::vector<Piece> measured;  // the same between the cuts as measured, to be compared
 
-  bool goes_on(Index piece) const {
-    return piece + 1 < pieces.size() && pieces[piece + 1].way == pieces[piece].way;
-  }
+  double length_m(Index piece) const { return measured[piece].to_m - measured[piece].from_m; }
   Index at(const Place& place) const {
-    const auto after = std::upper_bound(pieces.begin(), pieces.end(), place,
-                                        [](const Place& wanted, const Piece& piece) {
-                                          return wanted < Place{piece.way, piece.from_m};
-                                        });
-    return static_cast<Index>(after - pieces.begin()) - 1;
+    const auto after = std::upper_bound(
+        measured.begin(), measured.end(), place,
+        [](const Place& wanted, const Piece& piece) { return wanted < piece.begin(); });
+    return static_cast<Index>(after - measured.begin()) - 1;
   }
 };
 
 CutWays cut_ways(const std::vector<Way>& ways, const std::vector<std::vector<Cut>>& cuts) {
   CutWays result;
   for (std::size_t way = 0; way < ways.size(); ++way) {
-    double from_m = 0;
-    for (const Cut& cut : cuts[way]) {
-      result.pieces.push_back({way, from_m, cut.along_m});
-      result.cut_holds.push_back(cut.holds);
-      from_m = cut.along_m;
-    }
-    result.pieces.push_back({way, from_m, ways[way].length_m});
-    result.cut_holds.push_back(true);
+    Cut begin;
+    const auto add_piece_to = [&](const Cut& end) {
+      result.pieces.push_back({way, begin.along_m, end.along_m, end.holds});
+      result.measured.push_back({way, begin.measured_m, end.measured_m, end.holds});
+      begin = end;
+    };
+    for (const Cut& cut : cuts[way]) add_piece_to(cut);
+    add_piece_to({ways[way].length_m, ways[way].length_m, true});
   }
   return result;
 }
@@ -56,15 +53,6 @@ class Sets {
     const auto [less, more] = std::minmax({of(a), of(b)});
     parent_[more] = less;
   }
-  // The members of each set in ascending order, the sets by their first members.
-  std::vector<std::vector<Index>> members() {
-    std::map<Index, std::vector<Index>> by_first;
-    for (Index i = 0; i < parent_.size(); ++i) by_first[of(i)].push_back(i);
-    std::vector<std::vector<Index>> result;
-    result.reserve(by_first.size());
-    for (auto& entry : by_first) result.push_back(std::move(entry.second));
-    return result;
-  }
 
  private:
   std::vector<Index> parent_;
@@ -74,71 +62,79 @@ class Sets {
 std::map<Index, double> metres_beside(Index piece, const CutWays& cut,
                                       const CrossSections& sections) {
   std::map<Index, double> beside_m;
-  const Piece& whole = cut.pieces[piece];
-  for (double along_m = whole.from_m + 0.5; along_m < whole.to_m; ++along_m) {
+  const Piece& whole = cut.measured[piece];
+  const auto metres = static_cast<std::size_t>(std::lround(whole.to_m - whole.from_m));
+  for (std::size_t i = 0; i < metres; ++i) {
+    const double along_m = whole.from_m + 0.5 + static_cast<double>(i);
     for (const Place& place : sections.places({whole.way, along_m})) ++beside_m[cut.at(place)];
   }
   return beside_m;
 }
 
-std::vector<std::vector<Index>> groups_beside(const CutWays& cut, const CrossSections& sections) {
-  const auto length_m = [&](Index i) { return cut.pieces[i].to_m - cut.pieces[i].from_m; };
-  Sets sets(cut.pieces.size());
-  for (Index i = 0; i < cut.pieces.size(); ++i) {
-    for (const auto& [other, metres] : metres_beside(i, cut, sections)) {
-      if (metres > std::max(length_m(i), length_m(other)) / 2) sets.unite(i, other);
-    }
-  }
-  return sets.members();
+// The group that all pieces of a group go on in, alone; nothing if there is none.
+std::optional<Index> continuation(const std::vector<PieceGroup>& groups, Index group,
+                                  const std::map<Place, Index>& by_begin) {
+  const auto into = by_begin.find(groups[group].front().end());
+  if (into == by_begin.end() || into->second == group) return std::nullopt;
+  const bool all_go_on = std::ranges::all_of(groups[group], [&](const Piece& piece) {
+    const auto next = by_begin.find(piece.end());
+    return !piece.end_holds && next != by_begin.end() && next->second == into->second;
+  });
+  const bool alone = groups[into->second].size() == groups[group].size();
+  return all_go_on && alone ? std::optional(into->second) : std::nullopt;
 }
 
-// For each group the one that all of its pieces go on in, and no others; kNone where there is none.
-std::vector<Index> continuations(const CutWays& cut,
-                                 const std::vector<std::vector<Index>>& groups) {
-  std::vector<Index> group_of(cut.pieces.size());
-  for (Index group = 0; group < groups.size(); ++group) {
-    for (const Index piece : groups[group]) group_of[piece] = group;
-  }
-  std::vector<Index> next(groups.size(), kNone);
-  for (Index group = 0; group < groups.size(); ++group) {
-    const std::vector<Index>& pieces = groups[group];
-    if (!cut.goes_on(pieces.front())) continue;
-    const Index into = group_of[pieces.front() + 1];
-    const bool all_go_on = std::ranges::all_of(pieces, [&](Index piece) {
-      return cut.goes_on(piece) && !cut.cut_holds[piece] && group_of[piece + 1] == into;
+// Extends each piece of a group by the one of the next group that it goes on in.
+void extend(PieceGroup& group, const PieceGroup& next) {
+  for (Piece& piece : group) {
+    const auto on = std::ranges::find_if(next, [&](const Piece& other) {
+      return other.way == piece.way && other.from_m == piece.to_m;
     });
-    if (all_go_on && into != group && groups[into].size() == pieces.size()) next[group] = into;
+    piece.to_m = on->to_m;
+    piece.end_holds = on->end_holds;
   }
-  return next;
-}
-
-// Joins each piece of a chain of groups with those that it goes on in.
-PieceGroup joined(const CutWays& cut, const std::vector<Index>& pieces, std::size_t chain_length) {
-  PieceGroup group;
-  for (const Index piece : pieces) {
-    const Piece& first = cut.pieces[piece];
-    group.push_back({first.way, first.from_m, cut.pieces[piece + chain_length - 1].to_m});
-  }
-  return group;
 }
 
 }  // namespace
 
-std::vector<PieceGroup> segmentation(const std::vector<Way>& ways, const CrossSections& sections,
-                                     const std::vector<std::vector<Cut>>& cuts) {
+std::vector<PieceGroup> grouped_pieces(const std::vector<Way>& ways, const CrossSections& sections,
+                                       const std::vector<std::vector<Cut>>& cuts) {
   const CutWays cut = cut_ways(ways, cuts);
-  const std::vector<std::vector<Index>> groups = groups_beside(cut, sections);
-  const std::vector<Index> next = continuations(cut, groups);
-  std::vector<bool> is_continuation(groups.size(), false);
-  for (const Index into : next) {
-    if (into != kNone) is_continuation[into] = true;
+  Sets sets(cut.pieces.size());
+  for (Index i = 0; i < cut.pieces.size(); ++i) {
+    for (const auto& [other, metres] : metres_beside(i, cut, sections)) {
+      if (metres > std::max(cut.length_m(i), cut.length_m(other)) / 2) sets.unite(i, other);
+    }
+  }
+  std::map<Index, PieceGroup> by_first;
+  for (Index i = 0; i < cut.pieces.size(); ++i) by_first[sets.of(i)].push_back(cut.pieces[i]);
+  std::vector<PieceGroup> groups;
+  groups.reserve(by_first.size());
+  for (auto& entry : by_first) groups.push_back(std::move(entry.second));
+  return groups;
+}
+
+std::map<Place, std::size_t> groups_by_begin(const std::vector<PieceGroup>& groups) {
+  std::map<Place, Index> by_begin;
+  for (Index group = 0; group < groups.size(); ++group) {
+    for (const Piece& piece : groups[group]) by_begin[piece.begin()] = group;
+  }
+  return by_begin;
+}
+
+std::vector<PieceGroup> joined(const std::vector<PieceGroup>& groups) {
+  const std::map<Place, Index> by_begin = groups_by_begin(groups);
+  std::vector<std::optional<Index>> next(groups.size());
+  std::vector<bool> continues_another(groups.size(), false);
+  for (Index group = 0; group < groups.size(); ++group) {
+    next[group] = continuation(groups, group, by_begin);
+    if (next[group]) continues_another[*next[group]] = true;
   }
   std::vector<PieceGroup> result;
   for (Index group = 0; group < groups.size(); ++group) {
-    if (is_continuation[group]) continue;
-    std::size_t chain_length = 1;
-    for (Index last = group; next[last] != kNone; last = next[last]) ++chain_length;
-    result.push_back(joined(cut, groups[group], chain_length));
+    if (continues_another[group]) continue;
+    result.push_back(groups[group]);
+    for (auto on = next[group]; on; on = next[*on]) extend(result.back(), groups[*on]);
   }
   return result;
 }

@@ -78,7 +78,7 @@ std::vector<Way> ways_of(const NamedDrivenLines& drive, std::size_t drive_index)
 }
 
 std::size_t nearest_state(const Way& way, double along_m) {
-  const double last = static_cast<double>(way.states.size() - 1);
+  const auto last = static_cast<double>(way.states.size() - 1);
   return static_cast<std::size_t>(std::lround(std::clamp(along_m, 0.0, last)));
 }
 

@@ -1,16 +1,16 @@
 #include "mapper/pipeline/build_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <set>
 
 #include <nlohmann/json.hpp>
 
+#include "mapper/codebook/codebook.h"
+#include "mapper/pipeline/build_plan.h"
 #include "mapper/pipeline/frame_pipeline.h"
 #include "mapper/pipeline/layer_builder.h"
 #include "mapper/pipeline/layers.h"
-#include "mapper/pipeline/stretch_plan.h"
-#include "mapper/pipeline/trained_projection.h"
 #include "schema/store/map_store.h"
 
 namespace milepost {
@@ -97,23 +97,24 @@ class StretchBuilder {
   std::vector<NamedBuilder> layers_;
 };
 
-Status check_names_differ(const std::vector<Drive>& drives) {
-  std::set<std::string> names;
-  for (const Drive& drive : drives) {
-    if (names.insert(drive.name).second) continue;
-    return Error{ErrorCode::invalid_input, "drive '" + drive.name + "'",
-                 "two drives have this name", "give each drive.json a name of its own"};
-  }
-  return ok_status();
-}
-
-Status check_cameras_agree(const std::vector<Drive>& drives) {
-  for (const Drive& drive : drives) {
-    if (drive.camera == drives.front().camera) continue;
-    return Error{
-        ErrorCode::invalid_input, (drive.folder / "drive.json").string(),
-        "its camera differs from that of " + (drives.front().folder / "drive.json").string(),
-        "build a map for each camera"};
+// The layers of the laboratory hold pixels and scales of one camera; landmarks are metres.
+Status check_cameras_agree(const std::vector<DrivePlan>& drives) {
+  constexpr double kSameFocal = 1e-3;
+  const Drive& first = *drives.front().drive;
+  const auto differ = [](double a_px, double b_px) {
+    return std::abs(a_px - b_px) > kSameFocal * b_px;
+  };
+  for (const DrivePlan& plan : drives) {
+    const Camera& camera = plan.drive->camera;
+    const bool is_same = camera.width_px == first.camera.width_px &&
+                         camera.height_px == first.camera.height_px &&
+                         !differ(camera.pinhole.focal_x_px, first.camera.pinhole.focal_x_px) &&
+                         !differ(camera.pinhole.focal_y_px, first.camera.pinhole.focal_y_px);
+    if (is_same) continue;
+    return Error{ErrorCode::invalid_input, (plan.drive->folder / "drive.json").string(),
+                 "its camera differs from that of " + (first.folder / "drive.json").string() +
+                     ", and the layers of --lab are of one camera",
+                 "leave out --lab, or build a map for each camera"};
   }
   return ok_status();
 }
@@ -132,44 +133,43 @@ Error nothing_found(const DriveReport& drive) {
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
                               int jobs, const OnProgress& on_progress) {
-  std::vector<StretchPlan> plans;
-  BuildProgress progress;
-  for (const Drive& drive : drives) {
-    Result<StretchPlan> plan = plan_stretch(drive, settings.min_frame_spacing_m);
-    if (!plan) return plan.error();
-    progress.frames_total += plan->frame_indices.size();
-    plans.push_back(std::move(*plan));
+  const Result<BuildPlan> plan = plan_build(drives, settings, jobs);
+  if (!plan) return plan.error();
+  if (settings.lab) {
+    if (const Status checked = check_cameras_agree(plan->drives); !checked.ok())
+      return checked.error();
   }
-  for (const Status& checked : {check_names_differ(drives), check_cameras_agree(drives)}) {
-    if (!checked.ok()) return checked.error();
-  }
-
-  const Result<PcaProjection> projection = trained_projection(drives, plans, settings, jobs);
-  if (!projection) return projection.error();
+  const PcaProjection& codebook = settings.codebook ? *settings.codebook : shipped_codebook();
   Result<MapWriter> map = MapWriter::create(map_file);
   if (!map) return map.error();
   Status status = map->set_feature_json(to_json(settings.feature).dump());
   for (const Layer& layer : layers_of(settings)) {
     if (status.ok())
       status = map->add_layer(
-          layer.name,
-          to_json(parameters_of(layer, drives.front().camera, *projection, settings.tile_length_m))
-              .dump());
+          layer.name, to_json(parameters_of(layer, plan->drives.front().drive->camera, codebook,
+                                            settings.tile_length_m))
+                          .dump());
   }
   BuildReport report;
-  for (std::size_t i = 0; i < plans.size() && status.ok(); ++i) {
-    report.drives.push_back({.folder = drives[i].folder.string()});
-    for (const SegmentCut& segment : plans[i].segments) {
-      if (status.ok()) status = map->add_segment(stored_segment(segment));
-    }
-    if (status.ok()) {
-      status = StretchBuilder(drives[i], plans[i], *projection, settings)
+  report.findings = plan->findings;
+  for (const StoredSegment& segment : plan->segments) {
+    if (status.ok()) status = map->add_segment(segment);
+    report.length_m += segment.length_m;
+  }
+  report.segments = plan->segments.size();
+  BuildProgress progress;
+  for (const DrivePlan& drive : plan->drives) progress.frames_total += drive.frames();
+  for (const DrivePlan& drive : plan->drives) {
+    report.drives.push_back({.folder = drive.drive->folder.string()});
+    for (const StretchPlan& stretch : drive.stretches) {
+      if (!status.ok()) break;
+      status = StretchBuilder(*drive.drive, stretch, codebook, settings)
                    .run(jobs, *map, report, progress, on_progress);
     }
-    if (status.ok() && report.drives.back().tracklets == 0 && !settings.allow_empty) {
+    const bool is_mapped = !drive.stretches.empty();
+    if (status.ok() && is_mapped && report.drives.back().tracklets == 0 && !settings.allow_empty) {
       status = nothing_found(report.drives.back());
     }
-    report.length_m += plans[i].line.length_m();
   }
   if (!status.ok()) return status.error();
   Result<std::string> build = map->finish();

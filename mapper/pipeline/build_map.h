@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mapper/network/finding.h"
 #include "mapper/pipeline/settings.h"
 #include "schema/base/result.h"
 #include "schema/drive/drive.h"
@@ -29,7 +30,9 @@ struct DriveReport {
 
 struct BuildReport {
   std::string build;
-  std::vector<DriveReport> drives;  // one per segment
+  std::vector<DriveReport> drives;       // by name
+  std::vector<NetworkFinding> findings;  // about the drives and their network
+  std::size_t segments = 0;
   std::size_t frames = 0;
   std::size_t tiles = 0;
   std::size_t tracklets = 0;         // of the layer `tracklets`
@@ -40,11 +43,11 @@ struct BuildReport {
 // The error for a drive without tracklets, with its statistics.
 Error nothing_found(const DriveReport& drive);
 
-// Builds `map_file` from the drives; each becomes a segment with the name of the drive. The map's
-// bytes depend only on drives and settings. `on_progress` is called after each frame, from this
-// thread; the build ends with `cancelled` once it returns false. `map_file` is created or replaced
-// only after success. Errors: invalid_input, also for a drive without any tracklet unless the
-// settings allow it; io; cancelled.
+// Builds `map_file` from the drives, which make one road network. The map's bytes depend only on
+// drives and settings, not on the order of the drives. `on_progress` is called after each frame,
+// from this thread; the build ends with `cancelled` once it returns false. `map_file` is created or
+// replaced only after success. Errors: invalid_input, also for a drive without any tracklet unless
+// the settings allow it; io; cancelled.
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
                               int jobs,

@@ -39,8 +39,8 @@ void LandmarkLayerBuilder::add_tracks(const std::vector<Track>& tracks) {
 Result<std::vector<StoredTile>> LandmarkLayerBuilder::take_complete(double along_m) {
   for (const MappedLandmark& landmark : mapper_.take_mapped(std::isinf(along_m))) {
     for (Segment& segment : segments_) {
-      if (auto placed = landmark_on(landmark, segment.cut->on_stretch))
-        segment.assembler.add(std::move(*placed));
+      if (const auto placed = landmark_on(landmark, segment.cut->on_stretch))
+        segment.assembler.add(*placed);
     }
   }
   std::vector<StoredTile> tiles;

@@ -1,6 +1,11 @@
 #include "mapper/pipeline/layers.h"
 
 namespace milepost {
+namespace {
+
+constexpr double kReferenceFocalPx = 1000;
+
+}  // namespace
 
 std::vector<Layer> layers_of(const BuildSettings& settings) {
   std::vector<Layer> made = {
@@ -19,13 +24,16 @@ std::vector<Layer> layers_of(const BuildSettings& settings) {
 }
 
 LayerParameters parameters_of(const Layer& layer, const Camera& camera,
-                              const PcaProjection& projection, double tile_length_m) {
+                              const PcaProjection& codebook, double tile_length_m) {
   LayerParameters parameters;
   parameters.items = layer.items;
   parameters.tile_length_m = tile_length_m;
   parameters.focal_x_px = camera.pinhole.focal_x_px;
   parameters.focal_y_px = camera.pinhole.focal_y_px;
-  if (layer.items == LayerItems::landmarks) parameters.projection = projection;
+  if (layer.items == LayerItems::landmarks) {  // whose tiles hold nothing in pixels
+    parameters.focal_x_px = parameters.focal_y_px = kReferenceFocalPx;
+    parameters.projection = codebook;
+  }
   parameters.model = layer.regression.model;
   parameters.min_r_squared = layer.regression.min_r_squared;
   return parameters;

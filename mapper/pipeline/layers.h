@@ -31,8 +31,8 @@ struct Layer {
 // frame; `wisurf`, a whole-image descriptor of each frame.
 std::vector<Layer> layers_of(const BuildSettings& settings);
 
-// The parameters of the layer that the map stores.
+// The parameters of the layer that the map stores. `camera` is the drives'.
 LayerParameters parameters_of(const Layer& layer, const Camera& camera,
-                              const PcaProjection& projection, double tile_length_m);
+                              const PcaProjection& codebook, double tile_length_m);
 
 }  // namespace milepost

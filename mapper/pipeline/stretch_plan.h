@@ -6,10 +6,7 @@
 #include <vector>
 
 #include "schema/base/range.h"
-#include "schema/base/result.h"
-#include "schema/drive/drive.h"
 #include "schema/geo/route_line.h"
-#include "schema/store/map_store.h"
 
 namespace milepost {
 
@@ -28,16 +25,7 @@ struct StretchPlan {
   std::vector<SegmentCut> segments;  // in driving order, disjoint
 };
 
-// Frames closer than `min_spacing_m` to the last selected one are skipped: the frames of a stopped
-// vehicle carry no information on scale against position. The whole drive becomes one segment, or,
-// with `cuts_m`, arc lengths that ascend, one more than these. Errors: invalid_input (a name that
-// is not a segment id, or a drive that does not move).
-Result<StretchPlan> plan_stretch(const Drive& drive, double min_spacing_m,
-                                 const std::vector<double>& cuts_m = {});
-
 // The part of a line. REQUIRES: a range of positive length within [0, length].
 RouteLine part_of(const RouteLine& line, const AlongRange& range);
-
-StoredSegment stored_segment(const SegmentCut& segment);
 
 }  // namespace milepost

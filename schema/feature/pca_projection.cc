@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "schema/base/ids.h"
 #include "schema/feature/root_sift.h"
 
 namespace milepost {
@@ -83,21 +84,30 @@ CompactDescriptor PcaProjection::compact(const Descriptor& descriptor) const {
 }
 
 nlohmann::ordered_json PcaProjection::to_json() const {
-  return {{"step", quantization_step_}, {"mean", base64_from(mean_)}, {"axes", base64_from(axes_)}};
+  return {{"version", version_},
+          {"step", quantization_step_},
+          {"mean", base64_from(mean_)},
+          {"axes", base64_from(axes_)}};
 }
 
 Result<PcaProjection> PcaProjection::from_json(nlohmann::json object) {
   if (!object.is_object()) return corrupt_codebook("it is not a JSON object");
+  const auto version = object.find("version");
+  const bool is_named = version != object.end() && version->is_string() &&
+                        is_segment_id(version->get_ref<const std::string&>());
+  if (!is_named) return corrupt_codebook("'version' is missing or not an id");
   const auto step = object.find("step");
   if (step == object.end() || !step->is_number()) {
     return corrupt_codebook("'step' is missing or not a number");
   }
   PcaProjection projection;
+  projection.version_ = version->get<std::string>();
   projection.quantization_step_ = step->get<double>();
   if (!(projection.quantization_step_ > 0 && std::isfinite(projection.quantization_step_))) {
     return corrupt_codebook("'step' is not finite and above 0");
   }
-  object.erase(step);
+  object.erase("version");
+  object.erase("step");
   for (const Status& status :
        {take(object, "mean", projection.mean_), take(object, "axes", projection.axes_)}) {
     if (!status.ok()) return status.error();

@@ -1,5 +1,5 @@
 // Compact descriptors: RootSIFT (Arandjelovic and Zisserman 2012) projected on the first principal
-// axes of a map's own descriptors (Ke and Sukthankar 2004, on patches), one byte per coordinate.
+// axes of SIFT descriptors (Ke and Sukthankar 2004, on patches), one byte per coordinate.
 #pragma once
 
 #include <array>
@@ -32,7 +32,8 @@ class PcaProjection {
   // tile is compressed. The same descriptors in the same order give the same codebook.
   // REQUIRES: quantization_step > 0. Axes without variance (too few descriptors) are zero. Defined
   // in milepost::feature (Eigen); the rest is in milepost::feature_types.
-  static PcaProjection trained(std::span<const Descriptor> descriptors, double quantization_step);
+  static PcaProjection trained(std::span<const Descriptor> descriptors, double quantization_step,
+                               std::string version = "trained");
 
   // A JSON object; from_json(to_json()) gives a bit-identical codebook.
   // Errors: corrupt (a missing key, a wrong length, a value out of range).
@@ -42,12 +43,15 @@ class PcaProjection {
   // Saturates coordinates to 8 bits. Integer arithmetic: the same result on every machine.
   CompactDescriptor compact(const Descriptor& descriptor) const;
   double quantization_step() const { return quantization_step_; }
+  // Which codebook it is, an id: "trained" for one of the map's own descriptors.
+  const std::string& version() const { return version_; }
 
   friend bool operator==(const PcaProjection&, const PcaProjection&) = default;
 
  private:
   PcaProjection() = default;
 
+  std::string version_ = "trained";
   double quantization_step_ = 0;
   std::array<std::uint8_t, kDescriptorBytes> mean_{};  // of RootSIFT, in 1/255
   // In 1/127: for each value of a descriptor its component of every axis.

@@ -46,10 +46,11 @@ Vector with_sign(const Vector& axis) {
 }  // namespace
 
 PcaProjection PcaProjection::trained(std::span<const Descriptor> descriptors,
-                                     double quantization_step) {
+                                     double quantization_step, std::string version) {
   const Vector mean = mean_of(descriptors);
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance_of(descriptors, mean));
   PcaProjection projection;
+  projection.version_ = std::move(version);
   projection.quantization_step_ = quantization_step;
   for (int d = 0; d < kDescriptorBytes; ++d) {
     projection.mean_[static_cast<std::size_t>(d)] =

@@ -1,7 +1,10 @@
 #include "schema/store/map_checks.h"
 
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <vector>
+
+#include "schema/base/ids.h"
 
 namespace milepost {
 namespace {
@@ -27,6 +30,39 @@ Status check_vertex(const StoredVertex& vertex, const StoredVertex* before,
   return ok_status();
 }
 
+// The names are not quoted: in a damaged file they may hold any bytes.
+Status check_successors(const std::vector<Successor>& successors, const std::string& where) {
+  for (const Successor& successor : successors) {
+    if (!is_segment_id(successor.segment)) {
+      return unstorable(where, "a successor is not a segment id (FORMAT.md 2.5)");
+    }
+    if (!successor.map.empty() && !is_segment_id(successor.map)) {
+      return unstorable(where, "a successor's map is not a name (FORMAT.md 2.5)");
+    }
+  }
+  return ok_status();
+}
+
+Status check_passes(const std::vector<StoredPass>& passes, const std::string& where) {
+  for (const StoredPass& pass : passes) {
+    if (!is_segment_id(pass.drive)) {
+      return unstorable(where, "a pass's drive is not a name (FORMAT.md 2.5)");
+    }
+    if (!(pass.from_m >= 0 && pass.from_m <= pass.to_m && pass.to_m <= kMaxAlongM)) {
+      return unstorable(where, "a pass's range is not ascending from 0 on (FORMAT.md 2.5)");
+    }
+  }
+  return ok_status();
+}
+
+Status check_position_error(const PositionError& error, const std::string& where) {
+  const auto is_distance = [](const std::optional<double>& metres) {
+    return !metres || (*metres >= 0 && *metres <= kMaxAlongM);
+  };
+  if (is_distance(error.sigma_m) && is_distance(error.correlation_m)) return ok_status();
+  return unstorable(where, "the position error is not a distance (FORMAT.md 2.5)");
+}
+
 }  // namespace
 
 Status check_segment(const StoredSegment& segment, const std::string& where) {
@@ -47,19 +83,17 @@ Status check_segment(const StoredSegment& segment, const std::string& where) {
     if (!vertex) return vertex;
     before = &segment.vertices[i];
   }
-  for (const std::string& successor : segment.successors) {
-    if (is_segment_id(successor)) continue;
-    return unstorable(place, "the successor '" + successor + "' is not a segment id");
+  if (Status successors = check_successors(segment.successors, place); !successors) {
+    return successors;
   }
-  return ok_status();
+  if (Status passes = check_passes(segment.passes, place); !passes) return passes;
+  return check_position_error(segment.position_error, place);
 }
 
 Status check_frame(std::uint64_t bytes, std::uint64_t items, const std::string& where) {
   if (bytes == 0) return unstorable(where, "a tile without bytes (FORMAT.md 2.6)");
   if (bytes > kMaxFrameBytes) return unstorable(where, "a tile of too many bytes (FORMAT.md 2.6)");
-  if (items <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
-    return ok_status();
-  }
+  if (items <= kMaxItems) return ok_status();
   return unstorable(where, "a tile of too many items (FORMAT.md 2.6)");
 }
 

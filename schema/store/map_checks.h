@@ -13,6 +13,7 @@ namespace milepost {
 inline constexpr double kMaxAlongM = 1e8;     // of any arc length
 inline constexpr double kMaxAltitudeM = 1e5;  // above or below the ellipsoid
 inline constexpr std::uint64_t kMaxFrameBytes = 256ULL << 20U;
+inline constexpr std::uint64_t kMaxItems = 1ULL << 53U;  // of a tile; exact in every JSON reader
 
 // Whether the segment can be stored. Errors: invalid_input that names, after `where`, the segment
 // and the vertex.

@@ -1,99 +1,255 @@
 #include "schema/store/map_content.h"
 
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "schema/base/digest.h"
+#include "schema/base/ids.h"
+#include "schema/document/map_documents.h"
+#include "schema/store/map_checks.h"
+#include "schema/store/map_rows.h"
 
 namespace milepost {
 namespace {
 
-// One table that the build covers, its rows in the order of their keys.
-struct List {
-  const char* count;
-  const char* rows;
-  const char* columns;  // one letter each: t text, i integer, r real
+enum ContentQuery { kSegmentRow, kVertices, kSuccessors, kPasses, kTiles };
+constexpr const char* kContentQueries[] = {
+    "SELECT length_m, position_sigma_m IS NOT NULL, position_sigma_m, "
+    "position_correlation_m IS NOT NULL, position_correlation_m, assumed FROM segments "
+    "WHERE id = ?",
+    "SELECT latitude_deg, longitude_deg, altitude_m, along_m FROM vertices WHERE segment = ? "
+    "ORDER BY position",
+    "SELECT map, successor FROM successors WHERE segment = ? ORDER BY position",
+    "SELECT drive, from_m, to_m FROM passes WHERE segment = ? ORDER BY position",
+    "SELECT layer, number, from_m, to_m, items, bytes, digest FROM tiles WHERE segment = ? "
+    "ORDER BY layer, number",
 };
+constexpr const char* kEveryCellRow =
+    "SELECT layer, number, items, bytes, digest FROM cells ORDER BY layer, number";
 
-constexpr List kLists[] = {
-    {"SELECT count(*) FROM layers", "SELECT name, parameters FROM layers ORDER BY name", "tt"},
-    {"SELECT count(*) FROM segments", "SELECT id, length_m FROM segments ORDER BY id", "tr"},
-    {"SELECT count(*) FROM vertices",
-     "SELECT segment, position, latitude_deg, longitude_deg, altitude_m, along_m FROM vertices "
-     "ORDER BY segment, position",
-     "tirrrr"},
-    {"SELECT count(*) FROM successors",
-     "SELECT segment, position, successor FROM successors ORDER BY segment, position", "tit"},
-    {"SELECT count(*) FROM tiles",
-     "SELECT segment, layer, number, from_m, to_m, items, bytes, digest FROM tiles "
-     "ORDER BY segment, layer, number",
-     "ttirriit"},
-    {"SELECT count(*) FROM cells",
-     "SELECT layer, number, items, bytes, digest FROM cells ORDER BY layer, number", "tiiit"},
-};
-
-void add_row(FieldDigest& digest, const sqlite::Statement& row, const char* columns) {
-  for (int i = 0; columns[i] != '\0'; ++i) {
-    if (columns[i] == 't') {
-      digest.add(row.text(i));
-    } else if (columns[i] == 'i') {
-      digest.add(static_cast<std::uint64_t>(row.integer(i)));
-    } else {
-      digest.add(row.real(i));
-    }
-  }
+// The name is not quoted: it may hold any bytes.
+Status malformed_name(const std::string& where, const std::string& whose) {
+  return corrupt(where, whose + " name is malformed");
 }
 
-// Runs a query and passes each of its rows to `use`.
+// Whether the columns from `items` on are those of an encoded tile: items, bytes, digest.
+bool is_sound_frame(const Rows& row, int items) {
+  return row->integer(items) >= 0 && row->integer(items + 1) >= 0 &&
+         is_digest(row->text(items + 2)) &&
+         check_frame(static_cast<std::uint64_t>(row->integer(items + 1)),
+                     static_cast<std::uint64_t>(row->integer(items)), "")
+             .ok();
+}
+
+bool is_sound_tile(const Rows& row) {
+  return is_layer_name(row->text(0)) && row->integer(1) >= 0 &&
+         row->integer(1) <= std::numeric_limits<std::uint32_t>::max() &&
+         check_along({row->real(2), row->real(3)}, "").ok() && is_sound_frame(row, 4);
+}
+
+TileEntry tile_entry_at(const Rows& row) {
+  return {static_cast<std::uint32_t>(row->integer(1)),
+          {row->real(2), row->real(3)},
+          static_cast<std::uint64_t>(row->integer(4)),
+          static_cast<std::uint64_t>(row->integer(5)),
+          row->text(6)};
+}
+
+bool is_sound_cell(const Rows& row) {
+  return is_layer_name(row->text(0)) && row->integer(1) >= 0 &&
+         row->integer(1) < std::int64_t{kCellRows} * kCellColumns && is_sound_frame(row, 2);
+}
+
+CellEntry cell_entry_at(const Rows& row) {
+  return {static_cast<std::uint32_t>(row->integer(1)), static_cast<std::uint64_t>(row->integer(2)),
+          static_cast<std::uint64_t>(row->integer(3)), row->text(4)};
+}
+
+// A failed check is an error of the file here, not of the caller.
+Status as_corrupt(const Status& checked) {
+  return checked.ok() ? checked : corrupt(checked.error().where, checked.error().what);
+}
+
+// Passes each row of a query with one text as its parameter to `use`.
 template <class Use>
-Status for_each_content_row(const sqlite::Database& map, const char* query, Use use) {
-  Result<sqlite::Statement> statement = map.prepare(query);
-  if (!statement) return statement.error();
+Status for_each_row_of(sqlite::Statement& query, const std::string& key, Use use) {
+  Rows row(query.bind(1, key));
   while (true) {
-    const Result<bool> row = statement->step();
-    if (!row) return row.error();
-    if (!*row) return ok_status();
-    use(*statement);
+    const Result<bool> more = row.next();
+    if (!more) return more.error();
+    if (!*more) return ok_status();
+    const Status used = use(row);
+    if (!used.ok()) return used;
   }
-}
-
-Status add_list(FieldDigest& digest, const sqlite::Database& map, const List& list) {
-  const Status counted = for_each_content_row(map, list.count, [&](const sqlite::Statement& row) {
-    digest.add(static_cast<std::uint64_t>(row.integer(0)));
-  });
-  if (!counted.ok()) return counted;
-  return for_each_content_row(
-      map, list.rows, [&](const sqlite::Statement& row) { add_row(digest, row, list.columns); });
 }
 
 }  // namespace
 
-Result<std::string> build_of(const sqlite::Database& map) {
-  FieldDigest digest;
-  digest.add(static_cast<std::uint64_t>(kMapFormatVersion));
-  Status status =
-      for_each_content_row(map, "SELECT value FROM meta WHERE key = 'feature'",
-                           [&](const sqlite::Statement& row) { digest.add(row.text(0)); });
-  for (const List& list : kLists) {
-    if (!status.ok()) return status.error();
-    status = add_list(digest, map, list);
+std::string SegmentContent::document() const { return segment_document(segment, tiles); }
+
+Result<MapContent> MapContent::of(const sqlite::Database& map) {
+  std::vector<sqlite::Statement> queries;
+  for (const char* sql : kContentQueries) {
+    Result<sqlite::Statement> query = map.prepare(sql);
+    if (!query) return query.error();
+    queries.push_back(std::move(*query));
   }
+  if (const Result<sqlite::Statement> cells = map.prepare(kEveryCellRow); !cells) {
+    return cells.error();
+  }
+  return MapContent(map, std::move(queries));
+}
+
+Result<MapSummary> MapContent::summary() const {
+  const std::string place = map_->file().string();
+  MapSummary summary;
+  Status read = for_each_row(*map_, "SELECT name, parameters FROM layers", [&](const Rows& row) {
+    if (!is_layer_name(row->text(0))) return malformed_name(place, "a layer's");
+    summary.layers[row->text(0)] = row->text(1);
+    return ok_status();
+  });
+  if (!read.ok()) return read.error();
+  // Summed in one order, so that the rounding is the same everywhere.
+  read = for_each_row(*map_, "SELECT length_m FROM segments ORDER BY id", [&](const Rows& row) {
+    ++summary.segments;
+    summary.length_m += row->real(0);
+    return ok_status();
+  });
+  if (!read.ok()) return read.error();
+  return summary;
+}
+
+Result<std::vector<std::string>> MapContent::segment_ids() const {
+  std::vector<std::string> ids;
+  const Status read =
+      for_each_row(*map_, "SELECT id FROM segments ORDER BY id", [&](const Rows& row) {
+        if (!is_segment_id(row->text(0))) {
+          return malformed_name(map_->file().string(), "a segment's");
+        }
+        ids.push_back(row->text(0));
+        return ok_status();
+      });
+  if (!read.ok()) return read.error();
+  return ids;
+}
+
+Status MapContent::read_row(StoredSegment& segment) {
+  bool found = false;
+  const Status read = for_each_row_of(queries_[kSegmentRow], segment.id, [&](const Rows& row) {
+    found = true;
+    segment.length_m = row->real(0);
+    PositionError& error = segment.position_error;
+    if (row->integer(1) != 0) error.sigma_m = row->real(2);
+    if (row->integer(3) != 0) error.correlation_m = row->real(4);
+    error.is_assumed = row->integer(5) != 0;
+    return ok_status();
+  });
+  if (!read.ok() || found) return read;
+  return corrupt(map_->file().string(), "the map lacks segment " + segment.id);
+}
+
+Status MapContent::read_vertices(StoredSegment& segment) {
+  return for_each_row_of(queries_[kVertices], segment.id, [&](const Rows& row) {
+    segment.vertices.push_back({row->real(0), row->real(1), row->real(2), row->real(3)});
+    return ok_status();
+  });
+}
+
+Status MapContent::read_successors(StoredSegment& segment) {
+  return for_each_row_of(queries_[kSuccessors], segment.id, [&](const Rows& row) {
+    segment.successors.push_back({row->text(1), row->text(0)});
+    return ok_status();
+  });
+}
+
+Status MapContent::read_passes(StoredSegment& segment) {
+  return for_each_row_of(queries_[kPasses], segment.id, [&](const Rows& row) {
+    segment.passes.push_back({row->text(0), row->real(1), row->real(2)});
+    return ok_status();
+  });
+}
+
+Status MapContent::read_tiles(SegmentContent& content) {
+  return for_each_row_of(queries_[kTiles], content.segment.id, [&](const Rows& row) {
+    if (!is_sound_tile(row)) {
+      const std::string layer = is_layer_name(row->text(0)) ? row->text(0) : "?";
+      return Status(corrupt(
+          map_->file().string() + ", " + tile_name(content.segment.id, layer, row->integer(1)),
+          "the entry in the tile index is damaged"));
+    }
+    content.tiles[row->text(0)].push_back(tile_entry_at(row));
+    return ok_status();
+  });
+}
+
+Result<SegmentContent> MapContent::segment(const std::string& id) {
+  SegmentContent content;
+  content.segment.id = id;
+  Status status = read_row(content.segment);
+  if (status.ok()) status = read_vertices(content.segment);
+  if (status.ok()) status = read_successors(content.segment);
+  if (status.ok()) status = read_passes(content.segment);
+  if (status.ok()) status = as_corrupt(check_segment(content.segment, map_->file().string()));
+  if (status.ok()) status = read_tiles(content);
   if (!status.ok()) return status.error();
-  return digest.finish();
+  return content;
+}
+
+Result<CellIndices> MapContent::cells() const {
+  CellIndices cells;
+  const Status read = for_each_row(*map_, kEveryCellRow, [&](const Rows& row) {
+    if (!is_sound_cell(row)) {
+      const std::string layer = is_layer_name(row->text(0)) ? row->text(0) : "?";
+      return Status(corrupt(map_->file().string() + ", " + cell_name(layer, row->integer(1)),
+                            "the entry in the index of cells is damaged"));
+    }
+    cells[row->text(0)].push_back(cell_entry_at(row));
+    return ok_status();
+  });
+  if (!read.ok()) return read.error();
+  return cells;
+}
+
+Result<Manifest> manifest_of(const sqlite::Database& map, const std::string& feature_json,
+                             const Bounds& bounds) {
+  Result<MapContent> content = MapContent::of(map);
+  if (!content) return content.error();
+  Result<MapSummary> summary = content->summary();
+  if (!summary) return summary.error();
+  summary->feature_json = feature_json;
+  summary->bounds = bounds;
+  const Result<std::string> document = map_document(*summary);
+  if (!document) {
+    return corrupt(map.file().string() + ", " + document.error().where, document.error().what);
+  }
+  const Result<CellIndices> cells = content->cells();
+  if (!cells) return cells.error();
+  const Result<std::vector<std::string>> ids = content->segment_ids();
+  if (!ids) return ids.error();
+  Manifest manifest{ListedDocument::of(*document), ListedDocument::of(areas_document(*cells)), {}};
+  for (const std::string& id : *ids) {
+    const Result<SegmentContent> segment = content->segment(id);
+    if (!segment) return segment.error();
+    manifest.segments[id] = ListedDocument::of(segment->document());
+  }
+  return manifest;
 }
 
 Result<Bounds> bounds_of(const sqlite::Database& map) {
   std::optional<Bounds> bounds;
   const auto add = [&bounds](const Bounds& box) { bounds = bounds ? bounds->joined(box) : box; };
-  Status status =
-      for_each_content_row(map,
-                           "SELECT min(longitude_deg), min(latitude_deg), max(longitude_deg), "
-                           "max(latitude_deg) FROM vertices HAVING count(*) > 0",
-                           [&](const sqlite::Statement& row) {
-                             add({row.real(0), row.real(1), row.real(2), row.real(3)});
-                           });
+  Status status = for_each_row(map,
+                               "SELECT min(longitude_deg), min(latitude_deg), max(longitude_deg), "
+                               "max(latitude_deg) FROM vertices HAVING count(*) > 0",
+                               [&](const Rows& row) {
+                                 add({row->real(0), row->real(1), row->real(2), row->real(3)});
+                                 return ok_status();
+                               });
   if (!status.ok()) return status.error();
-  status = for_each_content_row(map, "SELECT number FROM cells", [&](const sqlite::Statement& row) {
-    add(GridCell::numbered(static_cast<std::uint32_t>(row.integer(0))).bounds());
+  status = for_each_row(map, "SELECT number FROM cells", [&](const Rows& row) {
+    add(GridCell::numbered(static_cast<std::uint32_t>(row->integer(0))).bounds());
+    return ok_status();
   });
   if (!status.ok()) return status.error();
   return bounds.value_or(Bounds{});

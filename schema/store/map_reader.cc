@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "schema/base/digest.h"
-#include "schema/store/map_cells.h"
+#include "schema/document/manifest.h"
+#include "schema/document/map_documents.h"
 #include "schema/store/map_checks.h"
 #include "schema/store/map_content.h"
 #include "schema/store/map_rows.h"
@@ -19,22 +19,15 @@ namespace {
 
 // A map is untrusted: nothing in its schema may run code, and damaged cells are rejected.
 constexpr const char* kReadSettings = "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
+constexpr std::size_t kMaxSegmentsInMemory = 64;
 
-enum Query { kMeta, kSegment, kVertices, kSuccessors, kTileIndex, kTilesIn, kTile, kFrame };
+enum Query { kMeta, kTileFrame, kCellFrame };
 constexpr const char* kQueries[] = {
     "SELECT value FROM meta WHERE key = ?",
-    "SELECT length_m FROM segments WHERE id = ?",
-    "SELECT latitude_deg, longitude_deg, altitude_m, along_m FROM vertices WHERE segment = ? "
-    "ORDER BY position",
-    "SELECT successor FROM successors WHERE segment = ? ORDER BY position",
-    "SELECT number, from_m, to_m, items, bytes, digest FROM tiles WHERE segment = ? AND layer = ? "
-    "ORDER BY number",
-    // A millimetre more than the longest tile compensates for the rounding of the differences.
-    "SELECT number, from_m, to_m, items, bytes, digest FROM tiles INDEXED BY tiles_by_from "
-    "WHERE segment = ?1 AND layer = ?2 AND to_m >= ?3 AND from_m <= ?4 AND from_m >= ?3 - 0.001 - "
-    "(SELECT longest_m FROM spans WHERE segment = ?1 AND layer = ?2) ORDER BY number",
-    "SELECT digest, frame FROM tiles WHERE segment = ? AND layer = ? AND number = ?",
-    "SELECT frame FROM frames WHERE id = ?",
+    "SELECT frames.frame FROM tiles JOIN frames ON frames.id = tiles.frame "
+    "WHERE segment = ? AND layer = ? AND number = ?",
+    "SELECT frames.frame FROM cells JOIN frames ON frames.id = cells.frame "
+    "WHERE layer = ? AND number = ?",
 };
 
 // Whether the file is a map of this format's version.
@@ -50,47 +43,32 @@ Status check_format(const sqlite::Database& map) {
   return Error{ErrorCode::corrupt, map.file().string(),
                "this is a map of format version " + std::to_string(*version) + ", not " +
                    std::to_string(kMapFormatVersion),
-               "build the map with the same version of milepost that reads it"};
+               *version < kMapFormatVersion
+                   ? "build the map anew"
+                   : "read it with a newer version of milepost, or build the map anew"};
 }
 
-TileEntry tile_entry_at(const Rows& row) {
-  return {static_cast<std::uint32_t>(row->integer(0)),
-          {row->real(1), row->real(2)},
-          static_cast<std::uint64_t>(row->integer(3)),
-          static_cast<std::uint64_t>(row->integer(4)),
-          row->text(5)};
-}
-
-bool is_sound_tile_row(const Rows& row) {
-  return row->integer(0) >= 0 && row->integer(0) <= std::numeric_limits<std::uint32_t>::max() &&
-         row->integer(3) >= 0 && row->integer(4) >= 0 && is_digest(row->text(5)) &&
-         check_along({row->real(1), row->real(2)}, "").ok() &&
-         check_frame(static_cast<std::uint64_t>(row->integer(4)),
-                     static_cast<std::uint64_t>(row->integer(3)), "")
-             .ok();
-}
-
-// The name is not quoted: it may hold any bytes.
-Status malformed_name(const std::string& where, const std::string& whose) {
-  return corrupt(where, whose + " name is malformed");
-}
-
-// A failed check is an error of the file here, not of the caller.
-Status as_corrupt(const Status& checked) {
-  return checked.ok() ? checked : corrupt(checked.error().where, checked.error().what);
-}
+// A segment whose document is the manifest's.
+struct CheckedSegment {
+  SegmentContent content;
+  std::string document;
+};
+using SharedSegment = std::shared_ptr<const CheckedSegment>;
 
 }  // namespace
 
 struct MapReader::Impl {
   sqlite::Database database;
   std::vector<sqlite::Statement> queries{};  // destroyed before their connection
-  std::optional<MapCells> cells{};           // the same
+  std::optional<MapContent> content{};       // the same
   std::string build{};
-  std::string feature_json{};
-  Bounds bounds{};
-  std::map<std::string, std::string> layers{};
+  std::string manifest_document{};
+  Manifest manifest{};
+  MapSummary summary{};
+  std::string map_document{};
   std::vector<std::string> segment_ids{};
+  std::map<std::string, SharedSegment> segments{};  // the latest that were read
+  std::optional<CellIndices> cells{};               // once they were read
 
   std::string place() const { return database.file().string(); }
   sqlite::Statement& query(Query kind) { return queries[kind]; }
@@ -101,9 +79,9 @@ struct MapReader::Impl {
       if (!query) return query.error();
       queries.push_back(std::move(*query));
     }
-    Result<MapCells> table = MapCells::of(database);
-    if (!table) return table.error();
-    cells = std::move(*table);
+    Result<MapContent> tables = MapContent::of(database);
+    if (!tables) return tables.error();
+    content.emplace(std::move(*tables));
     return ok_status();
   }
 
@@ -126,13 +104,9 @@ struct MapReader::Impl {
     return read_meta(key, [&](const Rows& row) { value = row->text(0); });
   }
 
-  Status read_all_meta() {
-    Status status = read_text("build", build);
-    if (status.ok() && !is_digest(build)) {
-      status = corrupt(place(), "the map's build is not a digest");
-    }
-    if (status.ok()) status = read_text("feature", feature_json);
-    if (status.ok()) status = read_number("west_deg", bounds.west_deg);
+  Status read_bounds() {
+    Bounds& bounds = summary.bounds;
+    Status status = read_number("west_deg", bounds.west_deg);
     if (status.ok()) status = read_number("south_deg", bounds.south_deg);
     if (status.ok()) status = read_number("east_deg", bounds.east_deg);
     if (status.ok()) status = read_number("north_deg", bounds.north_deg);
@@ -142,19 +116,47 @@ struct MapReader::Impl {
     return status;
   }
 
-  Status read_lists() {
-    Status status =
-        for_each_row(database, "SELECT name, parameters FROM layers", [&](const Rows& row) {
-          if (!is_layer_name(row->text(0))) return malformed_name(place(), "a layer's");
-          layers[row->text(0)] = row->text(1);
-          return ok_status();
-        });
+  Status read_manifest() {
+    Status status = read_text("build", build);
+    if (status.ok() && !is_digest(build)) {
+      status = corrupt(place(), "the map's build is not a digest");
+    }
+    if (status.ok()) status = read_text("manifest", manifest_document);
     if (!status.ok()) return status;
-    return for_each_row(database, "SELECT id FROM segments ORDER BY id", [&](const Rows& row) {
-      if (!is_segment_id(row->text(0))) return malformed_name(place(), "a segment's");
-      segment_ids.push_back(row->text(0));
-      return ok_status();
-    });
+    if (digest_of(as_bytes(manifest_document)) != build) {
+      return corrupt(place(), "the manifest is not that of build " + build);
+    }
+    Result<Manifest> parsed = manifest_from(manifest_document);
+    if (!parsed) return corrupt(place(), parsed.error().what);
+    manifest = std::move(*parsed);
+    return ok_status();
+  }
+
+  Status read_summary() {
+    Result<MapSummary> read = content->summary();
+    if (!read) return read.error();
+    summary = std::move(*read);
+    Status status = read_text("feature", summary.feature_json);
+    if (status.ok()) status = read_bounds();
+    if (!status.ok()) return status;
+    Result<std::vector<std::string>> ids = content->segment_ids();
+    if (!ids) return ids.error();
+    segment_ids = std::move(*ids);
+    Result<std::string> document = milepost::map_document(summary);
+    if (!document) return corrupt(place() + ", " + document.error().where, document.error().what);
+    map_document = std::move(*document);
+    return ok_status();
+  }
+
+  Status check_summary() const {
+    if (!manifest.map.is(map_document)) {
+      return corrupt(place(),
+                     "its layers, parameters, bounds or lengths are not those of build " + build);
+    }
+    const bool same_segments = std::ranges::equal(segment_ids, manifest.segments, {}, {},
+                                                  [](const auto& listed) { return listed.first; });
+    return same_segments ? ok_status()
+                         : Status(corrupt(place(), "its segments are not those of build " + build));
   }
 
   Error no_segment(const std::string& id) const {
@@ -162,56 +164,52 @@ struct MapReader::Impl {
   }
 
   Status require_layer(const std::string& layer) const {
-    if (layers.contains(layer)) return ok_status();
+    if (summary.layers.contains(layer)) return ok_status();
     return Error{ErrorCode::not_found, place(), "the map has no layer " + layer, ""};
   }
 
-  Status require(const std::string& segment, const std::string& layer) const {
-    if (!std::ranges::binary_search(segment_ids, segment)) return no_segment(segment);
-    return require_layer(layer);
-  }
-
-  Result<std::vector<TileEntry>> entries(Query kind, const std::string& segment,
-                                         const std::string& layer) {
-    Rows row(query(kind).bind(1, segment).bind(2, layer));
-    std::vector<TileEntry> entries;
-    while (true) {
-      const Result<bool> more = row.next();
-      if (!more) return more.error();
-      if (!*more) return entries;
-      if (!is_sound_tile_row(row)) {
-        return corrupt(place() + ", " + tile_name(segment, layer, row->integer(0)),
-                       "the entry in the tile index is damaged");
-      }
-      entries.push_back(tile_entry_at(row));
+  Result<SharedSegment> segment(const std::string& id) {
+    const auto known = segments.find(id);
+    if (known != segments.end()) return known->second;
+    const auto listed = manifest.segments.find(id);
+    if (listed == manifest.segments.end()) return no_segment(id);
+    Result<SegmentContent> read = content->segment(id);
+    if (!read) return read.error();
+    auto checked = std::make_shared<CheckedSegment>(CheckedSegment{std::move(*read), {}});
+    checked->document = checked->content.document();
+    if (!listed->second.is(checked->document)) {
+      return corrupt(place() + ", segment " + id,
+                     "its line, links, passes or tile index are not those of build " + build);
     }
+    if (segments.size() >= kMaxSegmentsInMemory) segments.clear();
+    segments[id] = checked;
+    return SharedSegment(std::move(checked));
   }
 
-  Status read_vertices(StoredSegment& segment) {
-    Rows row(query(kVertices).bind(1, segment.id));
-    while (true) {
-      const Result<bool> more = row.next();
-      if (!more) return more.error();
-      if (!*more) return ok_status();
-      segment.vertices.push_back({row->real(0), row->real(1), row->real(2), row->real(3)});
+  Result<std::vector<TileEntry>> tiles(const std::string& id, const std::string& layer) {
+    const Result<SharedSegment> found = segment(id);
+    if (!found) return found.error();
+    if (Status there = require_layer(layer); !there) return there.error();
+    const TileIndices& indices = (*found)->content.tiles;
+    const auto index = indices.find(layer);
+    return index == indices.end() ? std::vector<TileEntry>() : index->second;
+  }
+
+  Status read_cells() {
+    if (cells) return ok_status();
+    Result<CellIndices> read = content->cells();
+    if (!read) return read.error();
+    if (!manifest.areas.is(milepost::areas_document(*read))) {
+      return corrupt(place(), "the index of its cells is not that of build " + build);
     }
+    cells = std::move(*read);
+    return ok_status();
   }
 
-  Status read_successors(StoredSegment& segment) {
-    Rows row(query(kSuccessors).bind(1, segment.id));
-    while (true) {
-      const Result<bool> more = row.next();
-      if (!more) return more.error();
-      if (!*more) return ok_status();
-      if (!is_segment_id(row->text(0))) {
-        return malformed_name(place() + ", segment " + segment.id, "a successor's");
-      }
-      segment.successors.push_back(row->text(0));
-    }
-  }
-
-  Result<Bytes> frame(std::int64_t id, const std::string& digest, const std::string& where) {
-    Rows row(query(kFrame).bind(1, id));
+  // The bytes of a tile or a cell, in the first row of a query that is bound.
+  static Result<Bytes> frame(sqlite::Statement& query, const std::string& digest,
+                             const std::string& where) {
+    Rows row(query);
     const Result<bool> found = row.next();
     if (!found) return found.error();
     if (!*found) return corrupt(where, "the tile's bytes are missing");
@@ -236,91 +234,114 @@ Result<MapReader> MapReader::open(const fs::path& file) {
   if (!status.ok()) return status.error();
   auto impl = std::make_unique<Impl>(Impl{std::move(*database)});
   status = impl->prepare();
-  if (status.ok()) status = impl->read_all_meta();
-  if (status.ok()) status = impl->read_lists();
+  if (status.ok()) status = impl->read_summary();
+  if (status.ok()) status = impl->read_manifest();
+  if (status.ok()) status = impl->check_summary();
   if (!status.ok()) return status.error();
   return MapReader(std::move(impl));
 }
 
 const fs::path& MapReader::file() const { return impl_->database.file(); }
 const std::string& MapReader::build() const { return impl_->build; }
-const std::string& MapReader::feature_json() const { return impl_->feature_json; }
-const Bounds& MapReader::bounds() const { return impl_->bounds; }
-const std::map<std::string, std::string>& MapReader::layers() const { return impl_->layers; }
+const std::string& MapReader::feature_json() const { return impl_->summary.feature_json; }
+const Bounds& MapReader::bounds() const { return impl_->summary.bounds; }
+const std::map<std::string, std::string>& MapReader::layers() const {
+  return impl_->summary.layers;
+}
 const std::vector<std::string>& MapReader::segment_ids() const { return impl_->segment_ids; }
+const std::string& MapReader::manifest_document() const { return impl_->manifest_document; }
+const std::string& MapReader::map_document() const { return impl_->map_document; }
 
 Result<StoredSegment> MapReader::segment(const std::string& id) const {
-  StoredSegment segment{id, 0, {}, {}};
-  {
-    Rows row(impl_->query(kSegment).bind(1, id));
-    const Result<bool> found = row.next();
-    if (!found) return found.error();
-    if (!*found) return impl_->no_segment(id);
-    segment.length_m = row->real(0);
-  }
-  Status status = impl_->read_vertices(segment);
-  if (status.ok()) status = impl_->read_successors(segment);
-  if (status.ok()) status = as_corrupt(check_segment(segment, impl_->place()));
-  if (!status.ok()) return status.error();
-  return segment;
+  const Result<SharedSegment> segment = impl_->segment(id);
+  if (!segment) return segment.error();
+  return (*segment)->content.segment;
+}
+
+Result<std::string> MapReader::segment_document(const std::string& id) const {
+  const Result<SharedSegment> segment = impl_->segment(id);
+  if (!segment) return segment.error();
+  return (*segment)->document;
 }
 
 Result<std::vector<TileEntry>> MapReader::tile_index(const std::string& segment,
                                                      const std::string& layer) const {
-  const Status there = impl_->require(segment, layer);
-  if (!there.ok()) return there.error();
-  return impl_->entries(kTileIndex, segment, layer);
+  return impl_->tiles(segment, layer);
 }
 
 Result<std::vector<TileEntry>> MapReader::tiles_in(const std::string& segment,
                                                    const std::string& layer,
                                                    const AlongRange& range) const {
-  const Status there = impl_->require(segment, layer);
-  if (!there.ok()) return there.error();
-  impl_->query(kTilesIn).bind(3, range.from_m).bind(4, range.to_m);
-  return impl_->entries(kTilesIn, segment, layer);
+  Result<std::vector<TileEntry>> entries = impl_->tiles(segment, layer);
+  if (entries) {
+    std::erase_if(*entries, [&](const TileEntry& entry) { return !entry.along.meets(range); });
+  }
+  return entries;
 }
 
 Result<Bytes> MapReader::tile(const std::string& segment, const std::string& layer,
                               std::uint32_t index) const {
-  const Status there = impl_->require(segment, layer);
-  if (!there.ok()) return there.error();
-  const std::string name = tile_name(segment, layer, index);
-  Rows row(impl_->query(kTile)
-               .bind(1, segment)
-               .bind(2, layer)
-               .bind(3, static_cast<std::int64_t>(index)));
-  const Result<bool> found = row.next();
-  if (!found) return found.error();
-  if (!*found) {
-    return Error{ErrorCode::not_found, impl_->place(), "the map has no tile at " + name, ""};
+  const Result<std::vector<TileEntry>> entries = impl_->tiles(segment, layer);
+  if (!entries) return entries.error();
+  const auto entry = std::ranges::lower_bound(*entries, index, {}, &TileEntry::index);
+  if (entry == entries->end() || entry->index != index) {
+    return Error{ErrorCode::not_found, impl_->place(),
+                 "the map has no tile at " + tile_name(segment, layer, index), ""};
   }
-  return impl_->frame(row->integer(1), row->text(0), impl_->place() + ", " + name);
+  return tile(segment, layer, *entry);
+}
+
+Result<Bytes> MapReader::tile(const std::string& segment, const std::string& layer,
+                              const TileEntry& entry) const {
+  return Impl::frame(impl_->query(kTileFrame)
+                         .bind(1, segment)
+                         .bind(2, layer)
+                         .bind(3, static_cast<std::int64_t>(entry.index)),
+                     entry.digest, impl_->place() + ", " + tile_name(segment, layer, entry.index));
+}
+
+Result<std::string> MapReader::areas_document() const {
+  if (Status read = impl_->read_cells(); !read) return read.error();
+  return milepost::areas_document(*impl_->cells);
 }
 
 Result<std::vector<CellEntry>> MapReader::cell_index(const std::string& layer) const {
-  return cells_in(layer, {-180, -90, 180, 90});
+  if (Status there = impl_->require_layer(layer); !there) return there.error();
+  if (Status read = impl_->read_cells(); !read) return read.error();
+  const auto index = impl_->cells->find(layer);
+  return index == impl_->cells->end() ? std::vector<CellEntry>() : index->second;
 }
 
 Result<std::vector<CellEntry>> MapReader::cells_in(const std::string& layer,
                                                    const Bounds& box) const {
-  const Status there = impl_->require_layer(layer);
-  if (!there.ok()) return there.error();
-  return impl_->cells->in(layer, box);
+  Result<std::vector<CellEntry>> entries = cell_index(layer);
+  if (entries) {
+    std::erase_if(*entries, [&](const CellEntry& entry) {
+      return !GridCell::numbered(entry.cell).bounds().meets(box);
+    });
+  }
+  return entries;
 }
 
 Result<Bytes> MapReader::cell(const std::string& layer, std::uint32_t number) const {
-  const Status there = impl_->require_layer(layer);
-  if (!there.ok()) return there.error();
-  const std::string name = cell_name(layer, number);
-  const Result<std::optional<MapCells::Place>> place = impl_->cells->place_of(layer, number);
-  if (!place) return place.error();
-  if (!*place) return Error{ErrorCode::not_found, impl_->place(), "the map has no " + name, ""};
-  return impl_->frame((*place)->frame, (*place)->digest, impl_->place() + ", " + name);
+  const Result<std::vector<CellEntry>> entries = cell_index(layer);
+  if (!entries) return entries.error();
+  const auto entry = std::ranges::lower_bound(*entries, number, {}, &CellEntry::cell);
+  if (entry == entries->end() || entry->cell != number) {
+    return Error{ErrorCode::not_found, impl_->place(), "the map has no " + cell_name(layer, number),
+                 ""};
+  }
+  return cell(layer, *entry);
+}
+
+Result<Bytes> MapReader::cell(const std::string& layer, const CellEntry& entry) const {
+  return Impl::frame(
+      impl_->query(kCellFrame).bind(1, layer).bind(2, static_cast<std::int64_t>(entry.cell)),
+      entry.digest, impl_->place() + ", " + cell_name(layer, entry.cell));
 }
 
 Status MapReader::verify() const {
-  return verify_map(impl_->database, impl_->build, impl_->bounds);
+  return verify_map(impl_->database, impl_->build, impl_->summary);
 }
 
 }  // namespace milepost

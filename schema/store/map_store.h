@@ -14,55 +14,18 @@
 #include "schema/base/ids.h"
 #include "schema/base/range.h"
 #include "schema/base/result.h"
+#include "schema/document/stored_map.h"
 
 namespace milepost {
 
-// A vertex of a segment's line.
-struct StoredVertex {
-  double latitude_deg = 0;
-  double longitude_deg = 0;
-  double altitude_m = 0;
-  double along_m = 0;
-};
-
-struct StoredSegment {
-  std::string id;  // is_segment_id
-  double length_m = 0;
-  std::vector<StoredVertex> vertices;
-  std::vector<std::string> successors;
-};
-
-// One row of the tile index.
-struct TileEntry {
-  std::uint32_t index = 0;
-  AlongRange along;         // contains every item's range
-  std::uint64_t items = 0;  // tracklets, for the layers of tracklets
-  std::uint64_t bytes = 0;
-  std::string digest;  // of the encoded tile
-
-  friend bool operator==(const TileEntry& a, const TileEntry& b) {
-    return a.index == b.index && a.digest == b.digest;
-  }
-};
-
-// One row of the index of cells.
-struct CellEntry {
-  std::uint32_t cell = 0;  // is_cell
-  std::uint64_t items = 0;
-  std::uint64_t bytes = 0;
-  std::string digest;  // of the encoded tile
-
-  friend bool operator==(const CellEntry& a, const CellEntry& b) {
-    return a.cell == b.cell && a.digest == b.digest;
-  }
-};
-
 // Reads one map. Opens the file read only and never changes it; a map file is replaced by renaming,
-// so an open reader keeps reading the build that it opened.
+// so an open reader keeps reading the build that it opened. Whatever is returned has been checked
+// against the build: the manifest when the map is opened, a segment when it is first read (the
+// latest are kept), a tile at every reading.
 // Not safe to use from several threads at once: open one reader per thread.
 class MapReader {
  public:
-  // Errors: not_found, corrupt (not a milepost map, or one of another format version), io.
+  // Errors: not_found, corrupt (not a milepost map, one of another format version, or damaged), io.
   static Result<MapReader> open(const std::filesystem::path& file);
 
   MapReader(MapReader&&) noexcept;
@@ -70,14 +33,18 @@ class MapReader {
   ~MapReader();
 
   const std::filesystem::path& file() const;
-  const std::string& build() const;         // digest of the content
+  const std::string& build() const;         // digest of the manifest
   const std::string& feature_json() const;  // the feature parameters, a JSON object
   const Bounds& bounds() const;
   const std::map<std::string, std::string>& layers() const;  // name -> parameters, a JSON object
   const std::vector<std::string>& segment_ids() const;       // in the order of the ids
+  // Documents that the build covers (FORMAT.md 7).
+  const std::string& manifest_document() const;
+  const std::string& map_document() const;
 
   // Errors of all below: not_found (segment, layer or tile), corrupt, io.
   Result<StoredSegment> segment(const std::string& id) const;
+  Result<std::string> segment_document(const std::string& id) const;
   // The index of every tile of the layer, ascending.
   Result<std::vector<TileEntry>> tile_index(const std::string& segment,
                                             const std::string& layer) const;
@@ -88,14 +55,19 @@ class MapReader {
   // One encoded tile, as stored in the file.
   Result<Bytes> tile(const std::string& segment, const std::string& layer,
                      std::uint32_t index) const;
+  // The same for an entry of the tile index.
+  Result<Bytes> tile(const std::string& segment, const std::string& layer,
+                     const TileEntry& entry) const;
+  Result<std::string> areas_document() const;  // the index of the cells
   // The index of every cell of the layer, ascending; empty for a layer of segments.
   Result<std::vector<CellEntry>> cell_index(const std::string& layer) const;
   // The cells of the index that intersect the box, ascending.
   Result<std::vector<CellEntry>> cells_in(const std::string& layer, const Bounds& box) const;
   // The encoded tile of one cell, as stored in the file.
   Result<Bytes> cell(const std::string& layer, std::uint32_t number) const;
-  // Reads every byte: SQLite's integrity check, every tile's and cell's digest, the build. Errors:
-  // corrupt, io.
+  Result<Bytes> cell(const std::string& layer, const CellEntry& entry) const;
+  // Reads every byte: SQLite's integrity check, every tile's and cell's digest, every document.
+  // Errors: corrupt, io.
   Status verify() const;
 
  private:

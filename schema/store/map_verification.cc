@@ -15,9 +15,6 @@ constexpr const char* kEveryFrame =
 constexpr const char* kEveryCell =
     "SELECT cells.layer, cells.number, cells.bytes, cells.digest, frames.frame "
     "FROM cells LEFT JOIN frames ON frames.id = cells.frame ORDER BY cells.layer, cells.number";
-constexpr const char* kWrongSpans =
-    "SELECT segment, layer FROM tiles LEFT JOIN spans USING (segment, layer) "
-    "WHERE longest_m IS NULL OR to_m - from_m > longest_m LIMIT 1";
 
 Status check_integrity(const sqlite::Database& map) {
   return for_each_row(map, "PRAGMA integrity_check(1)", [&](const Rows& row) {
@@ -46,23 +43,18 @@ Status check_frames(const sqlite::Database& map) {
   });
 }
 
-Status check_spans(const sqlite::Database& map) {
-  return for_each_row(map, kWrongSpans, [&](const Rows& row) {
-    return Status(
-        corrupt(map.file().string() + ", segment " + row->text(0) + ", layer " + row->text(1),
-                "a tile is longer than the longest one"));
-  });
-}
-
-Status check_content(const sqlite::Database& map, const std::string& build, const Bounds& bounds) {
+Status check_content(const sqlite::Database& map, const std::string& build,
+                     const MapSummary& stated) {
   const std::string place = map.file().string();
-  const Result<std::string> computed = build_of(map);
-  if (!computed) return computed.error();
-  if (*computed != build) {
-    return corrupt(place, "the content has the build " + *computed + ", not " + build);
+  const Result<Manifest> manifest = manifest_of(map, stated.feature_json, stated.bounds);
+  if (!manifest) return manifest.error();
+  const std::string computed = digest_of(as_bytes(manifest_document(*manifest)));
+  if (computed != build) {
+    return corrupt(place, "the content has the build " + computed + ", not " + build);
   }
   const Result<Bounds> box = bounds_of(map);
   if (!box) return box.error();
+  const Bounds& bounds = stated.bounds;
   const bool same = box->west_deg == bounds.west_deg && box->south_deg == bounds.south_deg &&
                     box->east_deg == bounds.east_deg && box->north_deg == bounds.north_deg;
   return same ? ok_status()
@@ -71,11 +63,10 @@ Status check_content(const sqlite::Database& map, const std::string& build, cons
 
 }  // namespace
 
-Status verify_map(const sqlite::Database& map, const std::string& build, const Bounds& bounds) {
+Status verify_map(const sqlite::Database& map, const std::string& build, const MapSummary& stated) {
   Status status = check_integrity(map);
   if (status.ok()) status = check_frames(map);
-  if (status.ok()) status = check_spans(map);
-  if (status.ok()) status = check_content(map, build, bounds);
+  if (status.ok()) status = check_content(map, build, stated);
   return status;
 }
 

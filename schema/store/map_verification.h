@@ -8,8 +8,8 @@
 
 namespace milepost {
 
-// `build` and `bounds` are those that the map states. Errors: corrupt, which names the location of
+// `build` and `stated` are those that the map states. Errors: corrupt, which names the location of
 // the first contradiction; io.
-Status verify_map(const sqlite::Database& map, const std::string& build, const Bounds& bounds);
+Status verify_map(const sqlite::Database& map, const std::string& build, const MapSummary& stated);
 
 }  // namespace milepost

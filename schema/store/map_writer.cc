@@ -4,6 +4,7 @@
 #include "schema/base/digest.h"
 #include "schema/base/file.h"
 #include "schema/base/json.h"
+#include "schema/document/manifest.h"
 #include "schema/store/map_checks.h"
 #include "schema/store/map_content.h"
 #include "schema/store/map_output.h"
@@ -30,6 +31,7 @@ enum Insert {
   kInsertSegment,
   kInsertVertex,
   kInsertSuccessor,
+  kInsertPass,
   kInsertFrame,
   kInsertTile,
   kInsertCell
@@ -37,17 +39,14 @@ enum Insert {
 constexpr const char* kInserts[] = {
     "INSERT INTO meta VALUES (?, ?)",
     "INSERT INTO layers VALUES (?, ?)",
-    "INSERT INTO segments VALUES (?, ?)",
+    "INSERT INTO segments VALUES (?, ?, ?, ?, ?)",
     "INSERT INTO vertices VALUES (?, ?, ?, ?, ?, ?)",
-    "INSERT INTO successors VALUES (?, ?, ?)",
+    "INSERT INTO successors VALUES (?, ?, ?, ?)",
+    "INSERT INTO passes VALUES (?, ?, ?, ?, ?)",
     "INSERT INTO frames VALUES (?, ?)",
     "INSERT INTO tiles VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
     "INSERT INTO cells VALUES (?, ?, ?, ?, ?, ?)",
 };
-constexpr const char* kInsertSpans =
-    "INSERT INTO spans SELECT segment, layer, max(to_m - from_m) FROM tiles GROUP BY segment, "
-    "layer";
-
 Error wrong_call(const fs::path& file, const std::string& what) {
   return {ErrorCode::invalid_input, file.string(), what, ""};
 }
@@ -135,11 +134,41 @@ struct MapWriter::Impl {
     return ok_status();
   }
 
+  Status add_row(const StoredSegment& segment) {
+    const PositionError& error = segment.position_error;
+    return insert(kInsertSegment)
+        .bind(1, segment.id)
+        .bind(2, segment.length_m)
+        .bind(3, error.sigma_m)
+        .bind(4, error.correlation_m)
+        .bind(5, std::int64_t{error.is_assumed})
+        .run();
+  }
+
   Status add_successors(const StoredSegment& segment) {
     std::int64_t position = 0;
-    for (const std::string& successor : segment.successors) {
-      const Status added =
-          insert(kInsertSuccessor).bind(1, segment.id).bind(2, position++).bind(3, successor).run();
+    for (const Successor& successor : segment.successors) {
+      const Status added = insert(kInsertSuccessor)
+                               .bind(1, segment.id)
+                               .bind(2, position++)
+                               .bind(3, successor.map)
+                               .bind(4, successor.segment)
+                               .run();
+      if (!added.ok()) return added;
+    }
+    return ok_status();
+  }
+
+  Status add_passes(const StoredSegment& segment) {
+    std::int64_t position = 0;
+    for (const StoredPass& pass : segment.passes) {
+      const Status added = insert(kInsertPass)
+                               .bind(1, segment.id)
+                               .bind(2, position++)
+                               .bind(3, pass.drive)
+                               .bind(4, pass.from_m)
+                               .bind(5, pass.to_m)
+                               .run();
       if (!added.ok()) return added;
     }
     return ok_status();
@@ -153,25 +182,26 @@ struct MapWriter::Impl {
     return id;
   }
 
-  Status add_bounds() {
-    const Result<Bounds> bounds = bounds_of(session->database);
-    if (!bounds) return bounds.error();
-    Status status = add_meta("west_deg", bounds->west_deg);
-    if (status.ok()) status = add_meta("south_deg", bounds->south_deg);
-    if (status.ok()) status = add_meta("east_deg", bounds->east_deg);
-    if (status.ok()) status = add_meta("north_deg", bounds->north_deg);
+  Status add_bounds(const Bounds& bounds) {
+    Status status = add_meta("west_deg", bounds.west_deg);
+    if (status.ok()) status = add_meta("south_deg", bounds.south_deg);
+    if (status.ok()) status = add_meta("east_deg", bounds.east_deg);
+    if (status.ok()) status = add_meta("north_deg", bounds.north_deg);
     return status;
   }
 
   // Adds what is known only at the end. Returns the build.
   Result<std::string> complete() {
-    Status status = session->database.execute(kInsertSpans);
-    if (status.ok()) status = add_bounds();
+    const Result<Bounds> bounds = bounds_of(session->database);
+    if (!bounds) return bounds.error();
+    const Result<Manifest> manifest = manifest_of(session->database, feature_json, *bounds);
+    if (!manifest) return manifest.error();
+    const std::string document = manifest_document(*manifest);
+    std::string build = digest_of(as_bytes(document));
+    Status status = add_bounds(*bounds);
     if (status.ok()) status = add_meta("feature", feature_json);
-    if (!status.ok()) return status.error();
-    Result<std::string> build = build_of(session->database);
-    if (!build) return build;
-    status = add_meta("build", *build);
+    if (status.ok()) status = add_meta("manifest", document);
+    if (status.ok()) status = add_meta("build", build);
     if (status.ok()) status = session->database.execute("COMMIT");
     if (!status.ok()) return status.error();
     return build;
@@ -219,9 +249,10 @@ Status MapWriter::add_layer(const std::string& name, const std::string& paramete
 Status MapWriter::add_segment(const StoredSegment& segment) {
   if (!impl_->failure.ok()) return impl_->failure;
   if (Status checked = check_segment(segment, impl_->file.string()); !checked) return checked;
-  Status status = impl_->insert(kInsertSegment).bind(1, segment.id).bind(2, segment.length_m).run();
+  Status status = impl_->add_row(segment);
   if (status.ok()) status = impl_->add_vertices(segment);
   if (status.ok()) status = impl_->add_successors(segment);
+  if (status.ok()) status = impl_->add_passes(segment);
   return impl_->keep(status);
 }
 

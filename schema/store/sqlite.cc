@@ -72,6 +72,12 @@ Statement& Statement::bind(int parameter, double value) {
   return *this;
 }
 
+Statement& Statement::bind(int parameter, std::optional<double> value) {
+  if (value) return bind(parameter, *value);
+  sqlite3_bind_null(statement_.get(), parameter);
+  return *this;
+}
+
 Statement& Statement::bind(int parameter, std::string_view value) {
   sqlite3_bind_text64(statement_.get(), parameter, value.data(), value.size(), SQLITE_TRANSIENT,
                       SQLITE_UTF8);

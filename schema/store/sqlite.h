@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,8 +22,9 @@ class Statement {
  public:
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind(int parameter, double value);
-  Statement& bind(int parameter, std::string_view value);  // copied
-  Statement& bind(int parameter, ByteView value);          // copied
+  Statement& bind(int parameter, std::optional<double> value);  // none: NULL
+  Statement& bind(int parameter, std::string_view value);       // copied
+  Statement& bind(int parameter, ByteView value);               // copied
 
   // True if there is a row to read, false at the end. Errors: io (disk full too), corrupt,
   // invalid_input (violates a constraint), unavailable (locked by another process).

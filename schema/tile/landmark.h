@@ -24,6 +24,7 @@ struct Landmark {
   float size_sigma = 0;     // of ln(s * depth / f) over the observations: [0, 1]
   AlongRange along;         // capture positions of the first and last observation; steps of 0.1 m
   std::uint8_t observations = 0;  // >= 3; saturates at 255
+  std::uint8_t passes = 1;        // drives that saw it, >= 1; saturates at 255
 };
 
 // The landmarks whose first observation lies in [index, index + 1) * tile length of one segment.

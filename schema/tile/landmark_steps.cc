@@ -42,6 +42,7 @@ LandmarkSteps steps_of(const Landmark& landmark, double origin_m) {
   steps.length_dm =
       nearest<std::uint16_t>((landmark.along.to_m - origin_m) * kDecimetresAMetre - steps.begin_dm);
   steps.observations = landmark.observations;
+  steps.passes = landmark.passes;
   return steps;
 }
 
@@ -56,6 +57,7 @@ Landmark landmark_of(const LandmarkSteps& steps, double origin_m) {
   landmark.along = {origin_m + steps.begin_dm / kDecimetresAMetre,
                     origin_m + (steps.begin_dm + steps.length_dm) / kDecimetresAMetre};
   landmark.observations = steps.observations;
+  landmark.passes = steps.passes;
   return landmark;
 }
 

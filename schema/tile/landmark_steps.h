@@ -19,6 +19,7 @@ struct LandmarkSteps {
   std::uint16_t begin_dm = 0;    // from the tile's origin
   std::uint16_t length_dm = 0;
   std::uint8_t observations = 0;
+  std::uint8_t passes = 1;
 };
 
 inline constexpr std::uint8_t kSizeSigmaUnits = 250;

@@ -75,10 +75,14 @@ flatbuffers::Offset<fbs::LandmarkTile> build_table(flatbuffers::FlatBufferBuilde
   const auto length = builder.CreateVector(
       column<std::uint16_t>(landmarks, [](auto& landmark) { return landmark.length_dm; }));
   const auto observations = bytes([](auto& landmark) { return landmark.observations; });
+  // Left out where each was seen by one drive.
+  const bool is_fused = std::ranges::any_of(landmarks, [](auto& l) { return l.passes != 1; });
+  const auto passes = is_fused ? bytes([](auto& landmark) { return landmark.passes; })
+                               : flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>>();
   const auto segment = builder.CreateString(tile.segment);
   return fbs::CreateLandmarkTile(builder, segment, tile.index, tile.origin_m, kCompactValues,
                                  descriptors, position_low, position_high, depth_sigma, size,
-                                 size_sigma, begin, length, observations);
+                                 size_sigma, begin, length, observations, passes);
 }
 
 // Checks that every array has exactly one value per landmark.
@@ -95,6 +99,9 @@ Status check_arrays(const fbs::LandmarkTile& table, const std::string& where) {
                                        },
                                        "5.3");
   if (!lengths.ok()) return lengths;
+  if (table.passes() != nullptr && table.passes()->size() != count) {
+    return broken_tile(where, "passes are not as many as observations", "5.10");
+  }
   if (table.descriptor_values() != kCompactValues) {
     return broken_tile(where, "a descriptor does not have 32 values", "5.4");
   }
@@ -129,6 +136,7 @@ LandmarkSteps steps_at(const fbs::LandmarkTile& table, flatbuffers::uoffset_t i,
   steps.begin_dm = begin_dm;
   steps.length_dm = table.length_dm()->Get(i);
   steps.observations = table.observations()->Get(i);
+  if (table.passes() != nullptr) steps.passes = table.passes()->Get(i);
   return steps;
 }
 
@@ -137,6 +145,7 @@ Status check_landmark(const LandmarkSteps& steps, const std::string& where) {
     return broken_tile(where, "the size sigma is above 1", "5.6");
   }
   if (steps.observations < 3) return broken_tile(where, "fewer than 3 observations", "5.8");
+  if (steps.passes == 0) return broken_tile(where, "no pass", "5.10");
   return ok_status();
 }
 

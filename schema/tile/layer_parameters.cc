@@ -5,6 +5,11 @@
 namespace milepost {
 namespace {
 
+constexpr const char* kPinhole = "pinhole";
+constexpr double kMaxFocalPx = 1e6;
+
+bool is_focal_length(double focal_px) { return focal_px > 0 && focal_px <= kMaxFocalPx; }
+
 Error corrupt(const std::string& what) { return {ErrorCode::corrupt, "", what, "rebuild the map"}; }
 
 }  // namespace
@@ -18,6 +23,7 @@ nlohmann::ordered_json to_json(const LayerParameters& parameters) {
     json["min_r_squared"] = parameters.min_r_squared;
   }
   json["tile_length_m"] = parameters.tile_length_m;
+  json["camera_model"] = kPinhole;  // the only one
   json["focal_px"] = {parameters.focal_x_px, parameters.focal_y_px};
   return json;
 }
@@ -62,8 +68,12 @@ Result<LayerParameters> layer_parameters_from_json(const nlohmann::json& json) {
   parameters.items = *items;
   parameters.focal_x_px = focal[0].get<double>();
   parameters.focal_y_px = focal[1].get<double>();
-  const double focal_px = parameters.focal_px();
-  if (!(focal_px > 0 && std::isfinite(focal_px))) return corrupt("focal_px is out of range");
+  if (!is_focal_length(parameters.focal_x_px) || !is_focal_length(parameters.focal_y_px)) {
+    return corrupt("focal_px is out of range");
+  }
+  if (json.value("camera_model", nlohmann::json(kPinhole)) != kPinhole) {
+    return corrupt("its camera_model is unknown");
+  }
   if (*items == LayerItems::landmarks) {
     const Result<PcaProjection> projection =
         PcaProjection::from_json(json.value("codebook", nlohmann::json()));

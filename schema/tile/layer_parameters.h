@@ -29,12 +29,16 @@ inline constexpr const char* kWholeImages = "wisurf";
 
 }  // namespace layers
 
+// How directions are imaged.
+enum class CameraModel { pinhole };
+
 // Parameters of a layer whose tiles lie along segments.
 struct LayerParameters {
   LayerItems items = LayerItems::tracklets;
   double tile_length_m = 0;
-  // Of the map's camera: feature scales of another camera must be scaled by the ratio of focal
-  // lengths before they are compared.
+  // The reference camera. Scales and pixels of a drive's own camera, of the mapper's as of the
+  // vehicle's, are converted to it by the ratio of focal lengths before they are compared.
+  CameraModel camera_model = CameraModel::pinhole;
   double focal_x_px = 0;
   double focal_y_px = 0;
   std::optional<PcaProjection> projection = {};  // of landmarks
@@ -46,8 +50,9 @@ struct LayerParameters {
 
 nlohmann::ordered_json to_json(const LayerParameters& parameters);
 
-// The parameters that a client needs: items, focal lengths, and the codebook of landmarks; unknown
-// keys are ignored. Errors: corrupt, with `where` empty.
+// The parameters that a client needs: items, the reference camera (a pinhole camera where the model
+// is missing), and the codebook of landmarks; unknown keys are ignored. Errors: corrupt, with
+// `where` empty.
 Result<LayerParameters> layer_parameters_from_json(const nlohmann::json& json);
 
 // The source of a layer of walls, whose tiles are grid cells. Informative: a client needs none of

@@ -14,7 +14,7 @@ Result<RouteLine> line_of(const StoredSegment& segment) {
   return RouteLine::from_vertices(std::move(points));
 }
 
-// The store has checked the digest. The length was sent to the client before.
+// The length was sent to the client before.
 Result<Bytes> of_length(Result<Bytes> tile, std::uint64_t bytes, const std::string& where) {
   if (!tile || tile->size() == bytes) return tile;
   return Error{ErrorCode::corrupt, where, "the length is not the one in the index",
@@ -40,19 +40,17 @@ Result<std::shared_ptr<const ServedMap>> ServedMap::open(const std::string& name
 Status ServedMap::load(const MapReader& reader) {
   build_ = reader.build();
   layers_ = reader.layers();
-  double length_m = 0;
+  manifest_ = document_of(reader.manifest_document());
+  summary_ = document_of(reader.map_document());
   for (const std::string& id : reader.segment_ids()) {
     const Status loaded = load_segment(reader, id);
     if (!loaded) return loaded;
     const ServedSegment& segment = segments_.at(id);
     box_ = segments_.size() == 1 ? segment.line.box : box_.joined(segment.line.box);
-    length_m += segment.length_m;
   }
   const Status cells_loaded = load_cells(reader);
   if (!cells_loaded) return cells_loaded;
-  Result<std::string> text = map_document(name_, reader, length_m);
-  if (!text) return text.error();
-  document_ = document_of(std::move(*text));
+  document_ = document_of(current_map_document(name_, reader));
   return ok_status();
 }
 
@@ -70,9 +68,10 @@ Status ServedMap::load_segment(const MapReader& reader, const std::string& id) {
     if (!index) return index.error();
     tiles[layer] = std::move(*index);
   }
-  Document document = document_of(segment_document(name_, build_, *stored, tiles));
+  Result<std::string> document = reader.segment_document(id);
+  if (!document) return document.error();
   segments_.emplace(id, ServedSegment{stored->length_m, BoxedLine(std::move(*line)),
-                                      std::move(tiles), std::move(document)});
+                                      std::move(tiles), document_of(std::move(*document))});
   return ok_status();
 }
 
@@ -82,19 +81,21 @@ Status ServedMap::load_cells(const MapReader& reader) {
     if (!index) return index.error();
     cells_[layer] = std::move(*index);
   }
-  areas_ = document_of(areas_document(name_, build_, cells_));
+  Result<std::string> document = reader.areas_document();
+  if (!document) return document.error();
+  areas_ = document_of(std::move(*document));
   return ok_status();
 }
 
 Result<Bytes> ServedMap::tile(const std::string& segment, const std::string& layer,
                               const TileEntry& entry) const {
-  return of_length(readers_->lend()->tile(segment, layer, entry.index), entry.bytes,
+  return of_length(readers_->lend()->tile(segment, layer, entry), entry.bytes,
                    file_.string() + ", segment " + segment + ", layer " + layer + ", tile " +
                        std::to_string(entry.index));
 }
 
 Result<Bytes> ServedMap::cell(const std::string& layer, const CellEntry& entry) const {
-  return of_length(readers_->lend()->cell(layer, entry.cell), entry.bytes,
+  return of_length(readers_->lend()->cell(layer, entry), entry.bytes,
                    file_.string() + ", layer " + layer + ", cell " + std::to_string(entry.cell));
 }
 

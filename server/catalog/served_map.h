@@ -35,9 +35,11 @@ class ServedMap {
   const std::map<std::string, ServedSegment>& segments() const { return segments_; }
   // Layer -> index, ascending; every layer, also those without cells.
   const std::map<std::string, std::vector<CellEntry>>& cells() const { return cells_; }
-  const Document& document() const { return document_; }
-  const Document& areas() const { return areas_; }  // the index of the cells
-  const Bounds& box() const { return box_; }        // of all segments' lines
+  const Document& document() const { return document_; }  // of the current state
+  const Document& manifest() const { return manifest_; }
+  const Document& summary() const { return summary_; }  // the build's map document
+  const Document& areas() const { return areas_; }      // the index of the cells
+  const Bounds& box() const { return box_; }            // of all segments' lines
 
   // An encoded tile, checked against its entry in the index.
   // Errors: corrupt (it is not the one of the index), io.
@@ -61,6 +63,8 @@ class ServedMap {
   std::map<std::string, std::vector<CellEntry>> cells_;
   Bounds box_;
   Document document_;
+  Document manifest_;
+  Document summary_;
   Document areas_;
   std::unique_ptr<ReaderPool> readers_;  // synchronizes itself
 };

@@ -21,12 +21,12 @@ Response immutable_json(const Document& document);
 Response immutable_tiles(TileList tiles, const std::string& digest);
 Response immutable_cells(CellList cells, const std::string& digest);
 
-// The digest that covers entries of an index.
+// The digest that covers entries of an index: that of their digests, one after the other.
 template <class Entry>
 std::string digest_of_all(const std::vector<const Entry*>& entries) {
-  FieldDigest digest;
-  for (const Entry* entry : entries) digest.add(entry->digest);
-  return digest.finish();
+  std::string digests;
+  for (const Entry* entry : entries) digests += entry->digest;
+  return digest_of(as_bytes(digests));
 }
 
 }  // namespace milepost::server

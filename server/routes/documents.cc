@@ -13,6 +13,20 @@ Result<Response> answer_map(const Call& call) {
   return current_json((*map)->document());
 }
 
+Result<Response> answer_manifest(const Call& call) {
+  const Result<std::shared_ptr<const ServedMap>> map =
+      find_build(call.catalog, call.path[0], call.path[1]);
+  if (!map) return map.error();
+  return immutable_json((*map)->manifest());
+}
+
+Result<Response> answer_summary(const Call& call) {
+  const Result<std::shared_ptr<const ServedMap>> map =
+      find_build(call.catalog, call.path[0], call.path[1]);
+  if (!map) return map.error();
+  return immutable_json((*map)->summary());
+}
+
 Result<Response> answer_segment(const Call& call) {
   const Result<std::shared_ptr<const ServedMap>> map =
       find_build(call.catalog, call.path[0], call.path[1]);

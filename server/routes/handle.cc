@@ -25,6 +25,8 @@ const std::vector<Route>& routes() {
       {"/v1/maps", {}, answer_maps},
       {"/v1/maps/{map}", {}, answer_map},
       {"/v1/segments", {"near", "radius_m"}, answer_segments_near},
+      {"/v1/maps/{map}/builds/{build}/manifest", {}, answer_manifest},
+      {"/v1/maps/{map}/builds/{build}/map", {}, answer_summary},
       {"/v1/maps/{map}/builds/{build}/segments/{segment}", {}, answer_segment},
       {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles",
        {"layer", "from_m", "to_m"},

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "schema/base/json.h"
+#include "schema/document/manifest.h"
 #include "schema/feature/pca_projection.h"
 #include "schema/feature/types.h"
 #include "tests/fuzz/check.h"
@@ -17,9 +18,17 @@ using namespace milepost;
 
 const MapVersion kVersion{"town", "00112233445566778899aabbccddeeff"};
 
+// What is read is written again as the same.
+void read_manifest(std::string_view text) {
+  const Result<Manifest> manifest = manifest_from(text);
+  if (!manifest) return;
+  const std::string written = manifest_document(*manifest);
+  fuzz::check(manifest_document(*manifest_from(written)) == written);
+}
+
 // With the parameters of its features and layers.
 void read_map(std::string_view text) {
-  const Result<MapDescription> map = parse_map_document(text, "fuzz", "town");
+  const Result<MapDescription> map = parse_map_document(text, "fuzz", kVersion);
   if (!map) return;
   for (const auto& [name, parameters] : map->layers) fuzz::check(!name.empty());
 }
@@ -33,7 +42,7 @@ void read_segment(std::string_view text) {
 }
 
 void read_areas(std::string_view text) {
-  const Result<AreasDocument> areas = parse_areas_document(text, "fuzz", kVersion);
+  const Result<AreasDocument> areas = parse_areas_document(text, "fuzz");
   if (!areas) return;
   for (const auto& [layer, index] : *areas) {
     fuzz::check(entries_meeting(index, {-180, -90, 180, 90}).size() == index.size());
@@ -55,6 +64,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 'm':
       read_map(text);
+      break;
+    case 'd':
+      read_manifest(text);
       break;
     case 's':
       read_segment(text);

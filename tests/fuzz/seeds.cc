@@ -49,7 +49,7 @@ void write_targets(const SeedFolder& seeds) {
         std::string("/v1/maps"), std::string("/v1/maps/town"),
         std::string("/v1/segments?near=49.0001,8.0001&radius_m=50"), root + "/segments/s1",
         root + "/segments/s1/tiles?layer=tracklets&from_m=10&to_m=120",
-        root + "/segments/s1/tiles/tracklets/2", root + "/areas",
+        root + "/segments/s1/tiles/tracklets/2", root + "/areas", root + "/manifest", root + "/map",
         root + "/areas/walls?bbox=8,49,8.01,49.01",
         root + "/areas/walls/" + std::to_string(server::kTownCells[0]),
         std::string("http://host/v1/maps?%61=%20+")}) {
@@ -96,13 +96,14 @@ void write_documents(const SeedFolder& seeds) {
   seeds.write("documents", "catalog", "c" + map.catalog_document());
   seeds.write("documents", "near", "n" + map.near_document());
   seeds.write("documents", "map", "m" + map.map_document());
+  seeds.write("documents", "manifest", "d" + map.manifest());
   seeds.write("documents", "segment", "s" + map.segment_document());
   seeds.write("documents", "areas", "a" + map.areas_document());
   seeds.write("documents", "feature", "f" + to_json(FeatureParameters{}).dump());
   // A codebook whose bytes are all zero, in base64.
   seeds.write("documents", "codebook",
-              R"(b{"step":0.02,"mean":")" + std::string(171, 'A') + R"(=","axes":")" +
-                  std::string(5462, 'A') + R"(=="})");
+              R"(b{"version":"trained","step":0.02,"mean":")" + std::string(171, 'A') +
+                  R"(=","axes":")" + std::string(5462, 'A') + R"(=="})");
 }
 
 // An encoded tile, and its content, as inputs of target `tiles`.

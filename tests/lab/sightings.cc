@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
   for (const auto& [key, segment] : (*held)->segments) {
     if (!segment->layer) return fail(*segment->failure);
     const auto relocalizer =
-        method.make_relocalizer(*segment->layer, drive->camera, MethodSettings());
+        method.make_relocalizer(segment->layer, drive->camera, MethodSettings());
     if (!relocalizer) return fail(relocalizer.error());
     FeatureExtractor extractor(segment->layer->feature());
     for (std::size_t i = 0; i < drive->frames.size(); i += every) {

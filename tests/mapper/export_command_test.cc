@@ -53,7 +53,8 @@ class ExportCommandTest : public ::testing::Test {
                     ->add_segment({"a",
                                    30,
                                    {{49.123456789, 8.4, 1, 0}, {49.2, 8.4, 2, 9}, {50, 8, 3, 30}},
-                                   {"b", "of-another-map"}})
+                                   {{"b"}, {"c", "village"}},
+                                   {{"monday", 5, 35}}})
                     .ok());
     for (const WallTile& tile : tiles_of(kWalls)) add_walls(*writer, tile.cell, encode_walls(tile));
     EXPECT_TRUE(writer->finish().ok());
@@ -125,7 +126,11 @@ TEST_F(ExportCommandTest, WritesTheRoadNetwork) {
   const json features = exported().at("features");
   ASSERT_EQ(features.size(), 2U);
   EXPECT_EQ(features[0].at("properties"),
-            json({{"id", "a"}, {"length_m", 30.0}, {"successors", {"b", "of-another-map"}}}));
+            json({{"id", "a"},
+                  {"length_m", 30.0},
+                  {"successors",
+                   {{{"map", "town"}, {"segment", "b"}}, {{"map", "village"}, {"segment", "c"}}}},
+                  {"passes", {{{"drive", "monday"}, {"from_m", 5.0}, {"to_m", 35.0}}}}}));
   EXPECT_EQ(
       features[0].at("geometry"),
       json({{"type", "LineString"},

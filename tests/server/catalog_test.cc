@@ -178,7 +178,7 @@ TEST_F(LeftOutTest, DamagedHeader) {
 TEST_F(LeftOutTest, MapOfAnotherFormatVersion) {
   write_town(town_);
   change_town("PRAGMA user_version = 1");
-  expect_left_out("town.map", "this is a map of format version 1, not 2");
+  expect_left_out("town.map", "this is a map of format version 1, not 3; build the map anew");
 }
 
 TEST_F(LeftOutTest, MapWithoutATable) {
@@ -225,7 +225,7 @@ TEST_F(LeftOutTest, NamesInTheMapThatAreNone) {
   expect_left_out("town.map", "a layer's name");
   write_town(town_);
   change_town("UPDATE successors SET successor = CAST(x'73ff' AS TEXT)");
-  expect_left_out("town.map, segment s1", "a successor's name");
+  expect_left_out("town.map, segment s1", "a successor is not a segment id");
 }
 
 TEST_F(LeftOutTest, NameThatCannotStandInAUrl) {

@@ -86,16 +86,48 @@ TEST_F(HandleTest, MapDocumentHasLayersParametersBoundsAndSegments) {
   EXPECT_NEAR(map.at("length_m").get<double>(), 397.3, 1);
 }
 
+// From the build to every tile: each document gives the digests of what it leads to.
+TEST_F(HandleTest, TheBuildCoversEveryDocumentAndTile) {
+  const std::string root = "/v1/maps/town/builds/" + town_.build;
+  const Response manifest = get(root + "/manifest");
+  EXPECT_EQ(manifest.header("Cache-Control"), kImmutable);
+  EXPECT_EQ(digest_of(as_bytes(text_of(manifest))), town_.build);
+  const json listed = json_of(manifest);
+  EXPECT_EQ(listed.at("format"), 3);
+  const auto expect_listed = [&](const json& entry, const std::string& target) {
+    const std::string text = text_of(get(root + target));
+    EXPECT_EQ(entry.at("digest"), digest_of(as_bytes(text))) << target;
+    EXPECT_EQ(entry.at("bytes"), text.size()) << target;
+  };
+  expect_listed(listed.at("map"), "/map");
+  expect_listed(listed.at("areas"), "/areas");
+  ASSERT_EQ(listed.at("segments").size(), 2U);
+  for (const json& entry : listed.at("segments")) {
+    expect_listed(entry, "/segments/" + entry.at("segment").get<std::string>());
+  }
+}
+
+TEST_F(HandleTest, TheMapDocumentOfABuildNamesNeitherTheMapNorTheBuild) {
+  const Response response = get("/v1/maps/town/builds/" + town_.build + "/map");
+  EXPECT_EQ(response.header("Cache-Control"), kImmutable);
+  json expected = json_of(get("/v1/maps/town"));
+  for (const char* key : {"name", "build", "segments"}) expected.erase(key);
+  EXPECT_EQ(json_of(response), expected);
+}
+
+TEST_F(HandleTest, NoBuildIsSignedYet) {
+  EXPECT_EQ(get("/v1/maps/town/builds/" + town_.build + "/manifest.sig").status, 404U);
+}
+
 TEST_F(HandleTest, SegmentDocumentHasLineSuccessorsAndTileIndex) {
   const Response response = get(segment_path());
   EXPECT_EQ(response.header("Cache-Control"), kImmutable);
   EXPECT_EQ(response.header("ETag"), '"' + digest_of(as_bytes(text_of(response))) + '"');
   const json segment = json_of(response);
-  EXPECT_EQ(segment.at("map"), "town");
-  EXPECT_EQ(segment.at("build"), town_.build);
   EXPECT_EQ(segment.at("segment"), "s1");
-  EXPECT_EQ(segment.at("successors"), json({"s2"}));
-  EXPECT_EQ(segment.at("tiles").at("walls"), json::array());
+  EXPECT_EQ(segment.at("successors"),
+            json({{{"segment", "s2"}}, {{"segment", "far"}, {"map", "village"}}}));
+  EXPECT_FALSE(segment.at("tiles").contains("walls"));
   EXPECT_EQ(segment.at("tiles").at("tracklets").at(1),
             json({{"index", 1},
                   {"from_m", 50.0},

@@ -17,7 +17,7 @@ void must(const Status& status) {
 
 // Four vertices, 66.7 m apart, from 49 N 8 E.
 StoredSegment segment(const std::string& id, double north_deg, double east_deg,
-                      std::vector<std::string> successors) {
+                      std::vector<Successor> successors) {
   std::vector<GeoPoint> points;
   points.reserve(4);
   for (int i = 0; i < 4; ++i) points.push_back({49 + i * north_deg, 8 + i * east_deg, 110.25});
@@ -62,7 +62,7 @@ TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes, u
   must(writer->set_feature_json(R"({"extractor": "sift", "contrast": 0.04})"));
   must(writer->add_layer("tracklets", R"({"tile_m": 50})"));
   must(writer->add_layer("walls", "{}"));
-  must(writer->add_segment(segment("s1", 0.0006, 0, {"s2"})));
+  must(writer->add_segment(segment("s1", 0.0006, 0, {{"s2"}, {"far", "village"}})));
   must(writer->add_segment(segment("s2", 0, 0.0009, {})));
   TownMap town;
   const std::vector<AlongRange> ranges = {{0, 60}, {50, 110}, {100, 160}, {150, 200}};

@@ -69,14 +69,35 @@ Ground::Ground(const Network& network, std::uint64_t seed)
   }
 }
 
-cv::Mat Ground::paint(const cv::Vec2d& north_west, double side_m, int texels_per_m) const {
-  const int side = static_cast<int>(std::lround(side_m * texels_per_m));
-  const cv::Vec2d middle = north_west + cv::Vec2d(side_m / 2, -side_m / 2);
+std::vector<std::size_t> Ground::roads_near(const cv::Vec2d& middle, double side_m) const {
   std::vector<std::size_t> roads;
   for (std::size_t i = 0; i < network_.roads.size(); ++i) {
     const double distance = std::abs(network_.roads[i].path.place_of(middle).lateral_m);
     if (distance < kReachM + side_m) roads.push_back(i);
   }
+  return roads;
+}
+
+cv::Mat Ground::paint(const cv::Vec2d& north_west, double side_m, int texels_per_m) const {
+  const cv::Vec2d middle = north_west + cv::Vec2d(side_m / 2, -side_m / 2);
+  std::vector<std::size_t> roads = roads_near(middle, side_m);
+  for (const Bridge& bridge : network_.bridges) {
+    if (bridge.is_over(middle)) std::erase(roads, bridge.upper);
+  }
+  return paint(north_west, side_m, texels_per_m, roads);
+}
+
+cv::Mat Ground::paint_deck(const Bridge& bridge, const cv::Vec2d& north_west, double side_m,
+                           int texels_per_m) const {
+  const cv::Vec2d middle = north_west + cv::Vec2d(side_m / 2, -side_m / 2);
+  std::vector<std::size_t> roads = roads_near(middle, side_m);
+  std::erase(roads, bridge.lower);
+  return paint(north_west, side_m, texels_per_m, roads);
+}
+
+cv::Mat Ground::paint(const cv::Vec2d& north_west, double side_m, int texels_per_m,
+                      const std::vector<std::size_t>& roads) const {
+  const int side = static_cast<int>(std::lround(side_m * texels_per_m));
   cv::Mat image(side, side, CV_8UC3);
   for (int row = 0; row < side; ++row) {
     const double north_m = north_west[1] - (row + 0.5) / texels_per_m;

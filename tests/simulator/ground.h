@@ -15,8 +15,12 @@ class Ground {
  public:
   Ground(const Network& network, std::uint64_t seed);
 
-  // The picture of a square whose north-west corner and side are given, north up.
+  // The picture of a square whose north-west corner and side are given, north up. Where a bridge
+  // is over the square's middle it is without the bridge's road.
   cv::Mat paint(const cv::Vec2d& north_west, double side_m, int texels_per_m) const;
+  // The same of a bridge's deck: without the road below it.
+  cv::Mat paint_deck(const Bridge& bridge, const cv::Vec2d& north_west, double side_m,
+                     int texels_per_m) const;
 
  private:
   struct Repair {
@@ -40,6 +44,10 @@ class Ground {
     double beyond_edge_m;  // negative on the carriageway
   };
 
+  // The roads near a square.
+  std::vector<std::size_t> roads_near(const cv::Vec2d& middle, double side_m) const;
+  cv::Mat paint(const cv::Vec2d& north_west, double side_m, int texels_per_m,
+                const std::vector<std::size_t>& roads) const;
   cv::Vec3f colour_at(const cv::Vec2d& position, const std::vector<std::size_t>& roads) const;
   // `others_m` and `beyond_m`: to the edges of the other roads, and of all with rounded corners.
   cv::Vec3f road_colour(const Near& near, double others_m, double beyond_m,

@@ -141,7 +141,7 @@ class Developer {
     for (int i = 0; i < 4; ++i) {
       for (double part = 0; part < 1; part += kStep) {
         const cv::Vec2d at = outline[i] * (1 - part) + outline[(i + 1) % 4] * part;
-        if (clearance_m(network_, at) < -0.06) return false;
+        if (clearance_m(network_, at) < -0.06 || is_in_cutting(at)) return false;
         if (at[0] < network_.south_west[0] || at[1] < network_.south_west[1] ||
             at[0] > network_.north_east[0] || at[1] > network_.north_east[1]) {
           return false;
@@ -150,6 +150,12 @@ class Developer {
     }
     return std::none_of(buildings_.begin(), buildings_.end(),
                         [&](const Building& other) { return overlaps(outline, other.footprint); });
+  }
+
+  bool is_in_cutting(const cv::Vec2d& at) const {
+    constexpr double kShallowM = 0.5;
+    const auto& cutting = network_.terrain.cutting;
+    return cutting && cutting->depth_m_at(at) > kShallowM;
   }
 
   // A house across a road's blind end closes the view.
@@ -165,8 +171,10 @@ class Developer {
 
   // Sheds and houses at the back.
   void fill_yards() {
-    for (int i = 0; i < 700; ++i) {
-      const cv::Vec2d at(random_.uniform(-30.0, network_.north_east[0] - 20),
+    constexpr double kTriesPerHectare = 20.4;
+    const long tries = std::lround(kTriesPerHectare * hectares(network_));
+    for (long i = 0; i < tries; ++i) {
+      const cv::Vec2d at(random_.uniform(network_.yards_east_m, network_.north_east[0] - 20),
                          random_.uniform(network_.south_west[1] + 20, network_.north_east[1] - 20));
       const double heading = random_.uniform(0, 4) * CV_PI / 2 + random_.uniform(-0.15, 0.15);
       const double clear = clearance_m(network_, at);

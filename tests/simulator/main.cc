@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +14,9 @@
 #include "schema/base/output_file.h"
 #include "schema/command/command.h"
 #include "tests/simulator/aerial.h"
+#include "tests/simulator/city.h"
+#include "tests/simulator/city_graph.h"
+#include "tests/simulator/city_runs.h"
 #include "tests/simulator/record.h"
 #include "tests/simulator/runs.h"
 #include "tests/simulator/town.h"
@@ -28,11 +33,20 @@ constexpr const char* kDescription =
     "roundabout, houses, trees, traffic, sun and shadows. Writes drive folders, an orthoimage and\n"
     "the true outlines of the houses. The same seed and options give the same bytes.\n"
     "\n"
+    "With --city it makes up a city instead: a network of roads with a bridge, an exit, a\n"
+    "roundabout and a dual carriageway. Drives city-1-map, ... map it; city-1-tour, ... pass its\n"
+    "junctions in every mapped way; the last tour leaves the map, if the city is not small.\n"
+    "city-graph.json states the true junctions and roads. Options on positions rewrite a city's\n"
+    "tables, not its frames.\n"
+    "\n"
     "  milepost-simulator --out drives                      every drive of the town's three "
     "routes\n"
     "  milepost-simulator --out drives --route town-loop    one route: its map and query drives\n"
     "  milepost-simulator --out drives --route street --length-m 60     a short street, quickly\n"
     "  milepost-simulator --ortho town.tif --walls town.geojson         the town from the air\n"
+    "  milepost-simulator --out drives --city --small                   a small city\n"
+    "  milepost-simulator --out drives --city --drive city-1-map city-1-tour\n"
+    "  milepost-simulator --out drives --city --position-drift-m 0.3    other positions, quickly\n"
     "\n"
     "A route NAME gives drives NAME-map (a frame each 2 m) and NAME-query...; --list names them.";
 
@@ -45,7 +59,9 @@ struct Options {
   std::vector<int> size_px = {600, 500};
   std::vector<double> view_deg = {80, 64};
   double map_spacing_m = 2;
-  double position_noise_m = 0;
+  PositionErrors errors;
+  bool city = false;
+  bool small = false;
   std::string ortho;
   std::string walls;
   int threads = 0;
@@ -55,6 +71,8 @@ struct Options {
 void add_options(CLI::App& app, Options& options) {
   app.add_option("--out", options.out, "Folder for the drives; made if need be")
       ->option_text("DIR");
+  app.add_flag("--city", options.city, "A city and its drives and tours instead of the town");
+  app.add_flag("--small", options.small, "With --city: 400 m of road and two junctions, quickly");
   app.add_option("--route", options.routes, "Only the drives of these routes")
       ->option_text("NAME...");
   app.add_option("--drive", options.drives, "Only these drives")->option_text("NAME...");
@@ -75,8 +93,16 @@ void add_options(CLI::App& app, Options& options) {
       ->option_text("H V");
   add_number(app, "--map-spacing-m", options.map_spacing_m, "M",
              "Distance between the frames of the map drives", 0.1, 100);
-  add_number(app, "--position-noise-m", options.position_noise_m, "M",
-             "Standard deviation, on each axis, of the map drives' positions", 0, 20);
+  add_number(app, "--position-noise-m", options.errors.noise_m, "M",
+             "Standard deviation, on each axis, of the map drives' positions; in a city from frame "
+             "to frame, in the town over some 15 m",
+             0, 20);
+  add_number(app, "--position-drift-m", options.errors.drift_m, "M",
+             "The same of errors that change over 100 to 300 m", 0, 20);
+  add_number(app, "--position-bias-m", options.errors.bias_m, "M",
+             "The same of errors that are constant in a drive", 0, 20);
+  add_number(app, "--heading-noise-deg", options.errors.heading_deg, "DEG",
+             "Standard deviation of the map drives' headings, from frame to frame", 0, 45);
   app.add_option("--ortho", options.ortho, "GeoTIFF of the town, 10 cm a pixel")
       ->option_text("FILE");
   app.add_option("--walls", options.walls, "GeoJSON of the houses' outlines")->option_text("FILE");
@@ -125,13 +151,14 @@ Result<std::vector<RunPlan>> chosen_runs(const Options& options, const std::vect
   const bool is_any = options.routes.empty() && options.drives.empty();
   for (RunPlan run : all) {
     const bool is_chosen =
-        is_any ? is_driven_by_default(run.route)
+        is_any ? options.city || is_driven_by_default(run.route)
                : holds(options.routes, run.route) || holds(options.drives, run.name);
     if (!is_chosen) continue;
     run.camera = camera_of(options);
     if (run.spacing_m > 0) {  // the mapping drive
       run.spacing_m = options.map_spacing_m;
-      run.position_noise_m = options.position_noise_m;
+      run.errors = options.errors;
+      if (!options.city) run.position_noise_m = std::exchange(run.errors.noise_m, 0);
     }
     runs.push_back(std::move(run));
   }
@@ -145,21 +172,52 @@ Progress progress_on(ProgressLine& line, const std::string& name, const std::str
   };
 }
 
-Status record_all(const Options& options, const std::vector<RunPlan>& runs, int threads) {
-  const Town town = make_town(options.seed);
-  ProgressLine line;
-  for (const RunPlan& run : runs) {
-    const Lighting lighting = light_town(town, run.light);
-    const Status status = record(town, lighting, run, std::filesystem::path(options.out) / run.name,
-                                 threads, progress_on(line, run.name, "frame"));
-    if (!status) return status;
+// What is driven in: the town, or a city.
+struct World {
+  std::optional<City> city;
+  Network network;
+  std::vector<RunPlan> runs;
+
+  explicit World(const Options& options) {
+    if (!options.city) {
+      network = make_network(options.seed);
+      runs = make_runs(network, options.seed, options.length_m);
+      return;
+    }
+    city = make_city(options.seed, options.small ? CitySize::small : CitySize::full);
+    network = city->network;
+    runs = city_runs(*city, options.length_m);
   }
-  return ok_status();
+
+  Town build(std::uint64_t seed, GroundDetail detail) const {
+    Town town = build_town(network, seed, detail);
+    if (city) town.kind = "city";
+    return town;
+  }
+};
+
+Status record_one(const Town& town, const RunPlan& run, const std::filesystem::path& folder,
+                  int threads, ProgressLine& line) {
+  if (has_recorded(town, run, folder)) return record_tables(town, run, folder);
+  const Lighting lighting = light_town(town, run.light);
+  return record(town, lighting, run, folder, threads, progress_on(line, run.name, "frame"));
 }
 
-Status photograph(const Options& options, int threads) {
+Status record_all(const Options& options, const World& world, const std::vector<RunPlan>& runs,
+                  int threads) {
+  const std::filesystem::path out = options.out;
+  const Town town = world.build(options.seed, GroundDetail::road);
+  ProgressLine line;
+  for (const RunPlan& run : runs) {
+    const Status status = record_one(town, run, out / run.name, threads, line);
+    if (!status) return status;
+  }
+  return world.city ? write_city_graph(*world.city, out / kCityGraphFile) : ok_status();
+}
+
+Status photograph(const Options& options, const World& world, int threads) {
   if (options.ortho.empty() && options.walls.empty()) return ok_status();
-  const Town town = make_town(options.seed, GroundDetail::aerial);
+  const Town town = world.build(options.seed, GroundDetail::aerial);
   if (!options.walls.empty()) {
     if (const Status status = write_walls(town, options.walls); !status) return status;
   }
@@ -190,12 +248,12 @@ void list(const std::vector<RunPlan>& runs) {
 }
 
 int run(const Options& options) {
-  const auto all = make_runs(make_network(options.seed), options.seed, options.length_m);
+  const World world(options);
   if (options.list) {
-    list(all);
+    list(world.runs);
     return kExitDone;
   }
-  const auto runs = chosen_runs(options, all);
+  const auto runs = chosen_runs(options, world.runs);
   if (!runs) {
     fail(kProgram, runs.error());
     return kExitWrongCall;
@@ -206,11 +264,11 @@ int run(const Options& options) {
   const int threads = options.threads > 0 ? options.threads : cores;
   catch_stop_signals();
   if (!options.out.empty()) {
-    if (const Status status = record_all(options, *runs, threads); !status) {
+    if (const Status status = record_all(options, world, *runs, threads); !status) {
       return fail(kProgram, status.error());
     }
   }
-  if (const Status status = photograph(options, threads); !status) {
+  if (const Status status = photograph(options, world, threads); !status) {
     return fail(kProgram, status.error());
   }
   return kExitDone;
@@ -225,6 +283,7 @@ int main(int argc, char** argv) {
   app.callback([&options] {
     const bool writes = !options.out.empty() || !options.ortho.empty() || !options.walls.empty();
     if (!options.list && !writes) throw CLI::RequiredError("--out, --ortho or --walls");
+    if (options.small && !options.city) throw CLI::RequiresError("--small", "--city");
   });
   if (const auto exit_code = parse_command_line(app, argc, argv)) return *exit_code;
   return run(options);

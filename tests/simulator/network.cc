@@ -35,28 +35,6 @@ std::vector<Bend> around(const cv::Vec2d& centre) {
   return bends;
 }
 
-// Adds the points where a road's middle enters or leaves another road's carriageway.
-void add_mouths(Network& network) {
-  constexpr double kMouthStepM = 0.1;
-  for (std::size_t i = 0; i < network.roads.size(); ++i) {
-    const Road& road = network.roads[i];
-    for (std::size_t j = 0; j < network.roads.size(); ++j) {
-      if (i == j) continue;
-      const Road& other = network.roads[j];
-      const auto is_inside = [&](double along_m) {
-        const cv::Vec2d at = road.path.position_at({along_m, 0});
-        return std::abs(other.path.place_of(at).lateral_m) < other.half_width_m;
-      };
-      bool was_inside = is_inside(0);
-      for (double along = kMouthStepM; along < road.path.length_m(); along += kStepM) {
-        const bool inside = is_inside(along);
-        if (inside != was_inside) network.mouths.push_back({i, along, inside ? -1.0 : 1.0});
-        was_inside = inside;
-      }
-    }
-  }
-}
-
 }  // namespace
 
 Frontage Road::frontage_at(double along_m) const {
@@ -81,10 +59,68 @@ double pavement_width_m(Frontage frontage) {
   return 0;
 }
 
+const RouteSpan& Route::span_at(double along_m) const {
+  static const RouteSpan plain;
+  const auto after =
+      std::upper_bound(spans.begin(), spans.end(), along_m,
+                       [](double along, const RouteSpan& span) { return along < span.from_m; });
+  if (spans.empty()) return plain;
+  return after == spans.begin() ? spans.front() : *std::prev(after);
+}
+
+double Route::height_m(const Terrain& terrain, double along_m, const cv::Vec2d& position) const {
+  return span_at(along_m).is_on_bridge ? terrain.uncut_height_m(position)
+                                       : terrain.height_m(position);
+}
+
+bool Bridge::is_over(const cv::Vec2d& position) const {
+  return position[0] > south_west[0] && position[0] < north_east[0] &&
+         position[1] > south_west[1] && position[1] < north_east[1];
+}
+
 const Route* Network::route(const std::string& name) const {
   const auto found = std::find_if(routes.begin(), routes.end(),
                                   [&](const Route& route) { return route.name == name; });
   return found == routes.end() ? nullptr : &*found;
+}
+
+double hectares(const Network& network) {
+  const cv::Vec2d extent = network.north_east - network.south_west;
+  return extent[0] * extent[1] / 1e4;
+}
+
+void add_mouths(Network& network, double least_angle_rad) {
+  constexpr double kFirstM = 0.1;
+  constexpr double kMouthStepM = 0.5;
+  const auto is_bridge = [&](std::size_t a, std::size_t b) {
+    return std::any_of(network.bridges.begin(), network.bridges.end(), [&](const Bridge& bridge) {
+      return std::minmax(a, b) == std::minmax(bridge.upper, bridge.lower);
+    });
+  };
+  for (std::size_t i = 0; i < network.roads.size(); ++i) {
+    const Road& road = network.roads[i];
+    for (std::size_t j = 0; j < network.roads.size(); ++j) {
+      if (i == j || is_bridge(i, j)) continue;
+      const Road& other = network.roads[j];
+      const auto is_inside = [&](double along_m) {
+        const cv::Vec2d at = road.path.position_at({along_m, 0});
+        return std::abs(other.path.place_of(at).lateral_m) < other.half_width_m;
+      };
+      const auto is_across = [&](double along_m) {
+        const double other_m = other.path.place_of(road.path.position_at({along_m, 0})).along_m;
+        return std::abs(std::sin(road.path.heading_rad_at(along_m) -
+                                 other.path.heading_rad_at(other_m))) >= std::sin(least_angle_rad);
+      };
+      bool was_inside = is_inside(0);
+      for (double along = kFirstM; along < road.path.length_m(); along += kMouthStepM) {
+        const bool inside = is_inside(along);
+        if (inside != was_inside && is_across(along)) {
+          network.mouths.push_back({i, along, inside ? -1.0 : 1.0});
+        }
+        was_inside = inside;
+      }
+    }
+  }
 }
 
 Network make_network(std::uint64_t seed) {
@@ -141,18 +177,18 @@ Network make_network(std::uint64_t seed) {
   circle.half_width_m = kRingHalfWidthM;
   circle.has_centre_line = false;
   network.roads.push_back(circle);
-  add_mouths(network);
+  add_mouths(network, 0);
 
-  network.routes.push_back({"town-main", main.path});
-  network.routes.push_back({"street", main.path});
+  network.routes.push_back({"town-main", main.path, kLaneM, {}});
+  network.routes.push_back({"street", main.path, kLaneM, {}});
   std::vector<Bend> hill_bends = over_the_hill;
   hill_bends.front().at[0] = -14;
-  network.routes.push_back({"town-hill", Path::through(hill_bends)});
+  network.routes.push_back({"town-hill", Path::through(hill_bends), kLaneM, {}});
   std::vector<Bend> loop = {{{0, first_crossing[1] - 55}}, {first_crossing, 9}};
   for (const Bend& bend : around(ring)) loop.push_back(bend);
   loop.push_back({corner, 13});
   loop.push_back({second_crossing + cv::Vec2d(13, 0)});
-  network.routes.push_back({"town-loop", Path::through(loop)});
+  network.routes.push_back({"town-loop", Path::through(loop), kLaneM, {}});
 
   network.south_west = {-270, -110};
   network.north_east = {390, 410};

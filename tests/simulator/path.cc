@@ -43,9 +43,76 @@ Path Path::through(const std::vector<Bend>& bends) {
   return path;
 }
 
+Path Path::arc(const Directed& from, double length_m, double curvature_per_m) {
+  Path path;
+  path.append(length_m, curvature_per_m, from.at, from.heading_rad);
+  return path;
+}
+
 Path Path::circle(const cv::Vec2d& centre, double radius_m) {
   Path path;
   path.append(2 * std::numbers::pi * radius_m, -1 / radius_m, centre + cv::Vec2d(radius_m, 0), 0);
+  return path;
+}
+
+// The arc from a place, in its direction, to a point.
+void Path::append_arc(const Directed& from, const cv::Vec2d& to) {
+  const cv::Vec2d chord = to - from.at;
+  const double chord_m = cv::norm(chord);
+  const double half_turn =
+      std::remainder(heading_of(chord) - from.heading_rad, 2 * std::numbers::pi);
+  const double curvature = 2 * std::sin(half_turn) / chord_m;
+  const bool is_straight = std::abs(curvature) < 1e-7;
+  append(is_straight ? chord_m : 2 * half_turn / curvature, is_straight ? 0 : curvature, from.at,
+         from.heading_rad);
+}
+
+// The arcs meet in the middle between two points that are equally far ahead of the first place and
+// behind the second.
+Path Path::joining(const Directed& from, const Directed& to) {
+  const cv::Vec2d out = forward_of(from.heading_rad);
+  const cv::Vec2d in = forward_of(to.heading_rad);
+  const cv::Vec2d chord = to.at - from.at;
+  const double a = 2 * (1 - out.dot(in));
+  const double b = chord.dot(out + in);
+  const double c = chord.dot(chord);
+  const double ahead_m = a < 1e-9 ? c / (2 * b) : (std::sqrt(b * b + a * c) - b) / a;
+  const cv::Vec2d middle = (from.at + out * ahead_m + to.at - in * ahead_m) * 0.5;
+  Path path;
+  path.append_arc(from, middle);
+  path.append_arc(path.end(), to.at);
+  return path;
+}
+
+Path Path::chain(const std::vector<Path>& paths) {
+  Path whole;
+  for (const Path& path : paths) {
+    for (const Piece& piece : path.pieces_) {
+      whole.append(piece.length_m, piece.curvature_per_m, piece.start, piece.heading_rad);
+    }
+  }
+  return whole;
+}
+
+Path Path::shifted(double lateral_m) const {
+  Path path;
+  for (const Piece& piece : pieces_) {
+    const double stretch = 1 - piece.curvature_per_m * lateral_m;
+    path.append(piece.length_m * stretch, piece.curvature_per_m / stretch,
+                piece.start + right_of(piece.heading_rad) * lateral_m, piece.heading_rad);
+  }
+  return path;
+}
+
+Path Path::part(double from_m, double to_m) const {
+  Path path;
+  for (const Piece& piece : pieces_) {
+    const double begin_m = std::max(from_m - piece.from_m, 0.0);
+    const double end_m = std::min(to_m - piece.from_m, piece.length_m);
+    if (begin_m >= end_m) continue;
+    path.append(end_m - begin_m, piece.curvature_per_m, point_of(piece, begin_m),
+                piece.heading_rad + piece.curvature_per_m * begin_m);
+  }
   return path;
 }
 

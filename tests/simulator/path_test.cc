@@ -56,6 +56,41 @@ TEST(Path, ACircleRunsCounterClockwiseFromItsEasternmostPoint) {
   EXPECT_NEAR(cv::norm(path.position_at({path.length_m() / 4, 0}) - cv::Vec2d(5, 9)), 0, 1e-9);
 }
 
+TEST(Path, ShiftedKeepsItsDistance) {
+  const Path path = winding();
+  for (const double lateral_m : {-6.0, 3.5}) {
+    const Path beside = path.shifted(lateral_m);
+    for (double along_m = 0; along_m < beside.length_m(); along_m += 3) {
+      EXPECT_NEAR(path.place_of(beside.position_at({along_m, 0})).lateral_m, lateral_m, 1e-6);
+    }
+  }
+}
+
+TEST(Path, PartsChainToTheWhole) {
+  const Path path = winding();
+  const Path whole =
+      Path::chain({path.part(0, 91), path.part(91, 91.5), path.part(91.5, path.length_m())});
+  EXPECT_NEAR(whole.length_m(), path.length_m(), 1e-9);
+  for (double along_m = 0; along_m < path.length_m(); along_m += 7) {
+    EXPECT_NEAR(cv::norm(whole.position_at({along_m, 0.5}) - path.position_at({along_m, 0.5})), 0,
+                1e-9);
+  }
+}
+
+TEST(Path, JoinsTwoPlacesInTheirDirections) {
+  const Directed from{{3, 5}, 0.3};
+  for (const Directed& to :
+       {Directed{{20, 30}, 1.2}, Directed{{-9, 20}, -1.3},
+        Directed{{3 + 40 * std::sin(0.3), 5 + 40 * std::cos(0.3)}, 0.3}, Directed{{12, 40}, 0.3}}) {
+    const Path path = Path::joining(from, to);
+    EXPECT_NEAR(cv::norm(path.start().at - from.at), 0, 1e-6);
+    EXPECT_NEAR(std::remainder(path.start().heading_rad - from.heading_rad, 2 * CV_PI), 0, 1e-6);
+    EXPECT_NEAR(cv::norm(path.end().at - to.at), 0, 1e-6);
+    EXPECT_NEAR(std::remainder(path.end().heading_rad - to.heading_rad, 2 * CV_PI), 0, 1e-6);
+    EXPECT_LT(path.length_m(), 1.6 * cv::norm(to.at - from.at));
+  }
+}
+
 TEST(Path, ReversedIsTheSameLineInTheOtherDirection) {
   const Path path = winding();
   const Path back = path.reversed();

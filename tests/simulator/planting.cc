@@ -1,5 +1,7 @@
 #include "tests/simulator/planting.h"
 
+#include <cmath>
+
 #include "tests/simulator/facade.h"
 #include "tests/simulator/lots.h"
 #include "tests/simulator/paint.h"
@@ -17,7 +19,9 @@ class Gardener {
   void plant() {
     plant_streets();
     plant_yards();
-    plant_roundabout();
+    for (const Road& road : site_.network().roads) {
+      if (road.name == "roundabout") plant_roundabout(road);
+    }
     add_garden_edges();
   }
 
@@ -52,7 +56,9 @@ class Gardener {
   }
 
   void plant_yards() {
-    for (int i = 0; i < 900; ++i) {  // in yards and fields
+    constexpr double kTriesPerHectare = 26.22;
+    const long tries = std::lround(kTriesPerHectare * hectares(site_.network()));
+    for (long i = 0; i < tries; ++i) {  // in yards and fields
       const cv::Vec2d at(
           random_.uniform(site_.network().south_west[0] - 100, site_.network().north_east[0]),
           random_.uniform(site_.network().south_west[1], site_.network().north_east[1]));
@@ -63,13 +69,15 @@ class Gardener {
     }
   }
 
-  void plant_roundabout() {
-    const Road& ring = site_.network().roads.back();
-    const cv::Vec2d centre =
-        (ring.path.position_at({0, 0}) + ring.path.position_at({ring.path.length_m() / 2, 0})) *
-        0.5;
+  void plant_roundabout(const Road& ring) {
+    const cv::Vec2d east = ring.path.position_at({0, 0});
+    const cv::Vec2d west = ring.path.position_at({ring.path.length_m() / 2, 0});
+    const cv::Vec2d centre = (east + west) * 0.5;
+    const double island_m = cv::norm(east - west) / 2 - ring.half_width_m;
+    const double off_m = island_m > 8 ? 5 : island_m / 4;
     for (int i = 0; i < 5; ++i) {
-      add_tree_at(centre + cv::Vec2d(random_.uniform(-5.0, 5.0), random_.uniform(-5.0, 5.0)), 4, 7);
+      add_tree_at(
+          centre + cv::Vec2d(random_.uniform(-off_m, off_m), random_.uniform(-off_m, off_m)), 4, 7);
     }
   }
 

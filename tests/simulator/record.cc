@@ -4,12 +4,17 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <sstream>
 #include <system_error>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "schema/base/digest.h"
+#include "tests/simulator/kept_frames.h"
+#include "tests/simulator/lane_columns.h"
 #include "tests/simulator/paint.h"
 #include "tests/simulator/parallel.h"
+#include "tests/simulator/position_errors.h"
 #include "tests/simulator/sensors.h"
 #include "tests/simulator/traffic.h"
 
@@ -19,6 +24,8 @@ namespace {
 
 constexpr double kCameraHeightM = 1.5;
 constexpr int kJpegQuality = 93;
+constexpr const char* kImages = "frames";
+constexpr std::uint64_t kDrawing = 1;    // to be raised when the same plan gives other pictures
 constexpr double kPositionMemoryM = 15;  // correlation length of position noise
 
 // The data of a frame except its picture.
@@ -27,6 +34,7 @@ struct Shot {
   double along_m = 0;
   Pose pose;
   cv::Vec2d position_error;  // of the written position
+  PoseError error;           // a further one
   std::uint64_t seed = 0;    // of the picture's noise
 };
 
@@ -49,10 +57,13 @@ std::vector<double> frame_times(const Motion& motion, const RunPlan& run, cv::RN
   return times;
 }
 
-Pose pose_at(const Terrain& terrain, const Motion& motion, const RunPlan& run, double along_m,
+Pose pose_at(const Network& network, const Motion& motion, const RunPlan& run, double along_m,
              cv::RNG& random) {
   constexpr double kHalfBaseM = 1.3;
-  const auto height = [&](double at_m) { return terrain.height_m(motion.position_at(at_m)); };
+  const Route& route = *network.route(run.route);
+  const auto height = [&](double at_m) {
+    return route.height_m(network.terrain, at_m, motion.position_at(at_m));
+  };
   const cv::Vec2d plane = motion.position_at(along_m);
   const double rise = height(along_m + kHalfBaseM) - height(along_m - kHalfBaseM);
   Pose pose;
@@ -65,7 +76,7 @@ Pose pose_at(const Terrain& terrain, const Motion& motion, const RunPlan& run, d
   return pose;
 }
 
-std::vector<Shot> plan_shots(const Terrain& terrain, const Motion& motion, const RunPlan& run) {
+std::vector<Shot> plan_shots(const Network& network, const Motion& motion, const RunPlan& run) {
   cv::RNG random = seeded(run.seed);
   std::vector<Shot> shots;
   cv::Vec2d error(random.gaussian(1), random.gaussian(1));
@@ -74,7 +85,7 @@ std::vector<Shot> plan_shots(const Terrain& terrain, const Motion& motion, const
     Shot shot;
     shot.time_s = time;
     shot.along_m = motion.along_m_at(time);
-    shot.pose = pose_at(terrain, motion, run, shot.along_m, random);
+    shot.pose = pose_at(network, motion, run, shot.along_m, random);
     const double kept = std::exp(-(shot.along_m - last_m) / kPositionMemoryM);
     last_m = shot.along_m;
     for (int i = 0; i < 2; ++i) {
@@ -84,6 +95,10 @@ std::vector<Shot> plan_shots(const Terrain& terrain, const Motion& motion, const
     shot.seed = random.next();
     shots.push_back(shot);
   }
+  std::vector<double> alongs_m(shots.size());
+  for (std::size_t i = 0; i < shots.size(); ++i) alongs_m[i] = shots[i].along_m;
+  const std::vector<PoseError> errors = draw_errors(run.errors, alongs_m, run.seed);
+  for (std::size_t i = 0; i < shots.size(); ++i) shots[i].error = errors[i];
   return shots;
 }
 
@@ -117,55 +132,125 @@ Status check_run(const Town& town, const RunPlan& run) {
                "correct the run"};
 }
 
+Motion motion_of(const Town& town, const RunPlan& run) {
+  return {path_of(town.network, run), town.network.route(run.route)->lane_m, run.motion};
+}
+
+std::vector<fs::path> frame_files(const std::vector<Shot>& shots) {
+  std::vector<fs::path> files;
+  for (std::size_t i = 0; i < shots.size(); ++i) files.push_back(fs::path(kImages) / frame_name(i));
+  return files;
+}
+
+// Of all that the frames depend on.
+std::string digest_of_frames(const Town& town, const RunPlan& run, const std::vector<Shot>& shots) {
+  std::ostringstream fields;
+  fields.precision(17);
+  const auto add = [&fields](const auto& field) { fields << field << '\n'; };
+  add(kDrawing);
+  add(town.kind);
+  add(town.seed);
+  add(town.scene.surfaces.size());
+  add(run.name);
+  add(run.seed);
+  add((run.has_truck_ahead ? 2 : 0) + (run.has_oncoming ? 1 : 0));
+  add(run.camera.width_px);
+  add(run.camera.height_px);
+  const Pinhole& pinhole = run.camera.pinhole;
+  for (const double value :
+       {pinhole.focal_x_px, pinhole.focal_y_px, pinhole.principal_x_px, pinhole.principal_y_px,
+        run.image_noise, run.motion.from_m, run.motion.to_m, run.light.sun_azimuth_deg,
+        run.light.sun_elevation_deg}) {
+    add(value);
+  }
+  for (const Shot& shot : shots) {
+    const Pose& pose = shot.pose;
+    for (const double value : {shot.time_s, shot.along_m, pose.position[0], pose.position[1],
+                               pose.position[2], pose.heading_deg, pose.pitch_deg, pose.roll_deg}) {
+      add(value);
+    }
+  }
+  return digest_of(as_bytes(fields.str()));
+}
+
 Drive described(const Town& town, const RunPlan& run) {
   Drive drive;
   drive.name = run.name;
   drive.camera = run.camera;
   drive.position_frame = PositionFrame::local;
   drive.origin = kOrigin;
-  drive.images = "frames";
+  drive.images = kImages;
   drive.captured = "simulated";
   drive.licence = "Apache-2.0";
-  drive.source = "milepost-simulator, town of seed " + std::to_string(town.seed) + ": " + run.says;
+  drive.source = "milepost-simulator, " + town.kind + " of seed " + std::to_string(town.seed) +
+                 ": " + run.says;
   return drive;
+}
+
+Status write_tables(const Town& town, const RunPlan& run, const Motion& motion,
+                    const std::vector<Shot>& shots, const fs::path& folder) {
+  Drive drive = described(town, run);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const Shot& shot = shots[i];
+    const Point written = shot.pose.position +
+                          Point(shot.position_error[0], shot.position_error[1], 0) +
+                          shot.error.position;
+    drive.frames.push_back({frame_name(i), shot.time_s, geo_from_point(written),
+                            wrapped_360(shot.pose.heading_deg + shot.error.heading_deg)});
+  }
+  cv::RNG random = seeded(~run.seed);  // independent of the pictures' noise
+  if (run.has_receiver) drive.gps = receive(motion, *town.sky_view, random);
+  if (run.has_odometer) drive.odometry = measure_wheels(motion, random);
+  const Status status = write_drive(drive, folder);
+  if (!status || !run.states_lanes) return status;
+  const Route& route = *town.network.route(run.route);
+  std::vector<std::string> lanes;
+  for (const Shot& shot : shots) {
+    const RouteSpan& span = route.span_at(shot.along_m);
+    lanes.push_back(span.road + "," + std::to_string(span.lane));
+  }
+  return add_columns(folder / "trajectory.csv", "road,lane", lanes);
 }
 
 }  // namespace
 
+bool has_recorded(const Town& town, const RunPlan& run, const fs::path& folder) {
+  if (!run.keeps_frames || !check_run(town, run)) return false;
+  const std::vector<Shot> shots = plan_shots(town.network, motion_of(town, run), run);
+  return has_frames(folder, digest_of_frames(town, run, shots), frame_files(shots));
+}
+
+Status record_tables(const Town& town, const RunPlan& run, const fs::path& folder) {
+  if (Status status = check_run(town, run); !status) return status;
+  const Motion motion = motion_of(town, run);
+  return write_tables(town, run, motion, plan_shots(town.network, motion, run), folder);
+}
+
 Status record(const Town& town, const Lighting& lighting, const RunPlan& run,
               const fs::path& folder, int threads, const Progress& progress) {
   if (Status status = check_run(town, run); !status) return status;
-  Drive drive = described(town, run);
+  const fs::path images = folder / kImages;
   std::error_code error;
-  fs::create_directories(folder / drive.images, error);
+  fs::create_directories(images, error);
   if (error) {
-    return Error{ErrorCode::io, (folder / drive.images).string(),
-                 "cannot be created (" + error.message() + ")",
+    return Error{ErrorCode::io, images.string(), "cannot be created (" + error.message() + ")",
                  "check the path and the permissions"};
   }
-  const Motion motion(path_of(town.network, run), kLaneM, run.motion);
+  const Motion motion = motion_of(town, run);
   const Traffic traffic(town.network, run);
-  const std::vector<Shot> shots = plan_shots(town.network.terrain, motion, run);
+  const std::vector<Shot> shots = plan_shots(town.network, motion, run);
+  if (Status status = forget_frames(folder); !status) return status;
   Status status = for_each_in_parallel(shots.size(), threads, progress, [&](std::size_t i) {
     const Shot& shot = shots[i];
     cv::RNG random = seeded(shot.seed);
     const cv::Mat picture =
         render(town.scene, lighting, run.camera, shot.pose, traffic.at(shot.time_s, shot.along_m));
-    return write_image(folder / drive.images / frame_name(i),
-                       sensed(picture, run.image_noise, random));
+    return write_image(images / frame_name(i), sensed(picture, run.image_noise, random));
   });
-  if (!status) return status;
-  for (std::size_t i = 0; i < shots.size(); ++i) {
-    const Shot& shot = shots[i];
-    const Point written =
-        shot.pose.position + Point(shot.position_error[0], shot.position_error[1], 0);
-    drive.frames.push_back(
-        {frame_name(i), shot.time_s, geo_from_point(written), wrapped_360(shot.pose.heading_deg)});
+  if (status && run.keeps_frames) {
+    status = note_frames(folder, digest_of_frames(town, run, shots));
   }
-  cv::RNG random = seeded(~run.seed);  // independent of the pictures' noise
-  if (run.has_receiver) drive.gps = receive(motion, *town.sky_view, random);
-  if (run.has_odometer) drive.odometry = measure_wheels(motion, random);
-  return write_drive(drive, folder);
+  return status ? write_tables(town, run, motion, shots, folder) : status;
 }
 
 }  // namespace milepost::simulator

@@ -14,6 +14,15 @@ namespace milepost::simulator {
 // The camera of the tracklet paper: 600 x 500 pixels, 80 x 64 degrees.
 inline constexpr Camera kPaperCamera{600, 500, {357.5, 400.1, 300, 250}};
 
+// Standard deviations of the errors of the positions that a drive's file states. The frames are
+// taken at the true ones.
+struct PositionErrors {
+  double noise_m = 0;      // on each axis, from frame to frame
+  double drift_m = 0;      // on each axis, over some 100 to 300 m
+  double bias_m = 0;       // on each axis, of the whole drive
+  double heading_deg = 0;  // from frame to frame
+};
+
 struct RunPlan {
   std::string name;
   std::string route;
@@ -29,12 +38,15 @@ struct RunPlan {
   double pitch_jitter_deg = 0;
   double roll_jitter_deg = 0;
   double position_noise_m = 0;  // of the positions written, slowly changing
+  PositionErrors errors;        // further ones
   Light light;
   double image_noise = 2;  // standard deviation, in grey levels
   bool has_truck_ahead = false;
   bool has_oncoming = false;
   bool has_receiver = false;  // writes gps.csv, 1 Hz
   bool has_odometer = false;  // writes odometry.csv, 10 Hz
+  bool keeps_frames = false;  // does not render again what is in the folder already
+  bool states_lanes = false;  // in the further columns `road` and `lane` of trajectory.csv
   std::uint64_t seed = 1;     // of everything random in the run
 };
 

@@ -75,9 +75,26 @@ TEST(SimulatorCommand, ListsEveryRouteWithItsMapAndQuery) {
 TEST(SimulatorCommand, Teaches) {
   const Outcome outcome = run_simulator("--help");
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* option :
-       {"--out", "--route", "--drive", "--list", "--length-m", "--seed", "--ortho", "--walls",
-        "--position-noise-m", "--map-spacing-m", "--camera-px", "--view-deg", "NAME-map"}) {
+  for (const char* option : {"--out",
+                             "--route",
+                             "--drive",
+                             "--list",
+                             "--length-m",
+                             "--seed",
+                             "--ortho",
+                             "--walls",
+                             "--position-noise-m",
+                             "--position-drift-m",
+                             "--position-bias-m",
+                             "--heading-noise-deg",
+                             "--city",
+                             "--small",
+                             "city-1-tour",
+                             "city-graph.json",
+                             "--map-spacing-m",
+                             "--camera-px",
+                             "--view-deg",
+                             "NAME-map"}) {
     EXPECT_THAT(outcome.output, HasSubstr(option));
   }
   EXPECT_THAT(outcome.output, HasSubstr("(10 to 10000, default 10000)"));
@@ -90,6 +107,53 @@ TEST(SimulatorCommand, RefusesAWrongCall) {
   const Outcome outcome = run_simulator("--out /nowhere --route nowhere");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("there is no route 'nowhere'"));
+}
+
+TEST(SimulatorCommand, ListsTheDrivesAndToursOfACity) {
+  const Outcome small = run_simulator("--city --small --list");
+  EXPECT_EQ(small.exit_code, 0);
+  for (const char* name : {"city-1-map", "city-2-map", "city-1-tour"}) {
+    EXPECT_THAT(small.output, HasSubstr(name));
+  }
+  EXPECT_THAT(small.output, ::testing::Not(HasSubstr("city-3-map")));
+  const Outcome full = run_simulator("--city --list");
+  EXPECT_EQ(full.exit_code, 0);
+  EXPECT_THAT(full.output, HasSubstr("city-6-map"));
+  EXPECT_THAT(full.output, ::testing::Not(HasSubstr("town-main-map")));
+}
+
+TEST(SimulatorCommand, WritesACityWithItsGraphAndStatesOtherPositionsWithoutRendering) {
+  const testing::TempFolder folder;
+  const std::string call = "--out " + folder.path().string() +
+                           " --city --small --drive city-1-map --length-m 10 --camera-px 40 32";
+  const Outcome first = run_simulator(call);
+  EXPECT_EQ(first.exit_code, 0);
+  EXPECT_EQ(first.output, "");
+  EXPECT_TRUE(std::filesystem::exists(folder / "city-graph.json"));
+  const std::filesystem::path frame = folder / "city-1-map" / "frames" / "000000.jpg";
+  const std::filesystem::path trajectory = folder / "city-1-map" / "trajectory.csv";
+  const auto exact = *read_text_file(trajectory);
+  const auto rendered = std::filesystem::last_write_time(frame);
+  for (const char* option :
+       {"--position-noise-m", "--position-drift-m", "--position-bias-m", "--heading-noise-deg"}) {
+    EXPECT_EQ(run_simulator(call + " " + option + " 0.3").exit_code, 0);
+    EXPECT_NE(*read_text_file(trajectory), exact) << option;
+    EXPECT_EQ(std::filesystem::last_write_time(frame), rendered);
+  }
+  EXPECT_EQ(run_simulator(call).exit_code, 0);
+  EXPECT_EQ(*read_text_file(trajectory), exact);
+}
+
+TEST(SimulatorCommand, RefusesTownsDrivesInACityAndASmallTown) {
+  const Outcome route = run_simulator("--out /nowhere --city --route town-main");
+  EXPECT_EQ(route.exit_code, 2);
+  EXPECT_THAT(route.output, HasSubstr("there is no route 'town-main'"));
+  const Outcome drive = run_simulator("--out /nowhere --city --small --drive city-6-map");
+  EXPECT_EQ(drive.exit_code, 2);
+  EXPECT_THAT(drive.output, HasSubstr("there is no drive 'city-6-map'"));
+  const Outcome small = run_simulator("--out /nowhere --small");
+  EXPECT_EQ(small.exit_code, 2);
+  EXPECT_THAT(small.output, ::testing::MatchesRegex("[^\n]*--small[^\n]*--city[^\n]*\n"));
 }
 
 TEST(SimulatorCommand, ReplacesNoFileOfAnotherKind) {

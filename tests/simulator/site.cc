@@ -28,6 +28,13 @@ std::optional<Standing> Site::beside(const Road& road, double along_m, int side,
     if (&other == &road) continue;
     if (std::abs(other.path.place_of(at).lateral_m) < other.half_width_m + 1) return std::nullopt;
   }
+  // A loop comes back to itself.
+  if (std::abs(road.path.place_of(at).lateral_m) < road.half_width_m + off_m - 0.05) {
+    return std::nullopt;
+  }
+  for (const Bridge& bridge : network_.bridges) {
+    if (&road == &network_.roads[bridge.upper] && bridge.is_over(at)) return std::nullopt;
+  }
   if (is_built_on(at, 0.2)) return std::nullopt;
   const double heading = road.path.heading_rad_at(along_m);
   return Standing{on_ground(at), forward_of(heading), right_of(heading) * -side};

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/simulator/bridge.h"
 #include "tests/simulator/ground.h"
 #include "tests/simulator/lots.h"
 #include "tests/simulator/planting.h"
@@ -16,6 +18,7 @@ namespace milepost::simulator {
 namespace {
 
 constexpr double kPatchM = 8;
+constexpr double kPlainM = -1.4;     // height of the fields around the town
 constexpr int kRoadTexelsPerM = 38;  // near a drive
 constexpr int kAwayTexelsPerM = 12;
 constexpr double kCloseM = 11;  // from a route's middle, within which the ground needs detail
@@ -24,6 +27,10 @@ constexpr double kCloseM = 11;  // from a route's middle, within which the groun
 enum Part : std::uint64_t { kGround = 1, kHouses, kPlants, kParking, kFurniture, kWoods };
 
 std::uint64_t seed_of(std::uint64_t seed, Part part) { return seed * 0x9e3779b97f4a7c15ULL + part; }
+
+int texels_per_m_of(GroundDetail detail) {
+  return detail == GroundDetail::road ? kRoadTexelsPerM : kAwayTexelsPerM;
+}
 
 bool is_close_to_a_route(const Network& network, const cv::Vec2d& position) {
   return std::any_of(network.routes.begin(), network.routes.end(), [&](const Route& route) {
@@ -41,8 +48,7 @@ void add_ground(Scene& scene, const Site& site, GroundDetail detail, std::uint64
     for (double south = from[1]; south < to[1]; south += kPatchM) {
       const cv::Vec2d north_west(west, south + kPatchM);
       const bool is_close = is_close_to_a_route(network, {west + kPatchM / 2, south + kPatchM / 2});
-      const int texels_per_m =
-          is_close && detail == GroundDetail::road ? kRoadTexelsPerM : kAwayTexelsPerM;
+      const int texels_per_m = is_close ? texels_per_m_of(detail) : kAwayTexelsPerM;
       const auto texture = std::make_shared<Texture>(
           [=] { return ground->paint(north_west, kPatchM, texels_per_m); });
       const Point nw = site.on_ground(north_west);
@@ -55,6 +61,26 @@ void add_ground(Scene& scene, const Site& site, GroundDetail detail, std::uint64
       scene.surfaces.push_back(polygon({nw, se, sw}, texture, map));
     }
   }
+}
+
+// A rectangle: its north-western and south-eastern corners.
+using Bounds = std::pair<cv::Vec2d, cv::Vec2d>;
+
+// The whole, with a hole for the cutting, which is deeper than the plain.
+std::vector<Bounds> plain_of(const Network& network, const Bounds& whole) {
+  const auto& cutting = network.terrain.cutting;
+  if (!cutting) return {whole};
+  const auto& [nw, se] = whole;
+  const double half_length_m = cutting->half_level_m + cutting->ramp_m;
+  const double half_width_m = cutting->half_floor_m + cutting->slope_m;
+  const double west = cutting->centre[0] - half_length_m;
+  const double east = cutting->centre[0] + half_length_m;
+  const double north = cutting->centre[1] + half_width_m;
+  const double south = cutting->centre[1] - half_width_m;
+  return {{nw, {se[0], north}},
+          {{nw[0], south}, se},
+          {{nw[0], north}, {west, south}},
+          {{east, north}, {se[0], south}}};
 }
 
 // Fields and woods beyond the town.
@@ -74,10 +100,20 @@ void add_surroundings(Scene& scene, const Network& network, std::uint64_t seed) 
   });
   constexpr double kFarM = 1200;
   const cv::Vec2d centre = (network.south_west + network.north_east) * 0.5;
-  Surface plain = rectangle({centre[0] - kFarM, centre[1] + kFarM, -1.4}, {1, 0, 0}, {0, -1, 0},
-                            2 * kFarM, 2 * kFarM, meadow, {256, 256});
-  plain.is_distant = true;
-  scene.surfaces.push_back(plain);
+  const cv::Vec2d north_west = centre + cv::Vec2d(-kFarM, kFarM);
+  const TextureMap map{{north_west[0], north_west[1], kPlainM},
+                       {256 / (2 * kFarM), 0, 0},
+                       {0, -256 / (2 * kFarM), 0}};
+  for (const Bounds& part : plain_of(network, {north_west, centre + cv::Vec2d(kFarM, -kFarM)})) {
+    const auto [nw, se] = part;
+    Surface plain = polygon({{nw[0], nw[1], kPlainM},
+                             {se[0], nw[1], kPlainM},
+                             {se[0], se[1], kPlainM},
+                             {nw[0], se[1], kPlainM}},
+                            meadow, map);
+    plain.is_distant = true;
+    scene.surfaces.push_back(plain);
+  }
   add_far_woods(scene, centre, 620, seed);
 }
 
@@ -102,12 +138,17 @@ cv::Mat heights_of(const Network& network, const std::vector<Building>& building
 }  // namespace
 
 Town make_town(std::uint64_t seed, GroundDetail detail) {
+  return build_town(make_network(seed), seed, detail);
+}
+
+Town build_town(const Network& network, std::uint64_t seed, GroundDetail detail) {
   Town town;
   town.seed = seed;
-  town.network = make_network(seed);
+  town.network = network;
   town.buildings = make_buildings(town.network, seed_of(seed, kHouses));
   const Site site(town.network, town.buildings);
   add_ground(town.scene, site, detail, seed_of(seed, kGround));
+  add_bridges(town.scene, town.network, seed_of(seed, kGround), texels_per_m_of(detail));
   for (const Building& building : town.buildings) add_building(town.scene, building);
   plant(town.scene, site, seed_of(seed, kPlants));
   park_vehicles(town.scene, site, seed_of(seed, kParking));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tests/simulator/building.h"
@@ -16,6 +17,7 @@ namespace milepost::simulator {
 enum class GroundDetail { road, aerial };
 
 struct Town {
+  std::string kind = "town";  // or city
   std::uint64_t seed = 1;
   Network network;
   std::vector<Building> buildings;
@@ -25,6 +27,10 @@ struct Town {
 
 // The same seed gives the same town.
 Town make_town(std::uint64_t seed, GroundDetail detail = GroundDetail::road);
+
+// The town around a network of roads.
+Town build_town(const Network& network, std::uint64_t seed,
+                GroundDetail detail = GroundDetail::road);
 
 // Computes the town's lighting and shadows. REQUIRES: the town outlives the lighting.
 Lighting light_town(const Town& town, const Light& light);

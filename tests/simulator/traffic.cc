@@ -14,6 +14,7 @@ constexpr double kGapSwingM = 3.5;
 
 Traffic::Traffic(const Network& network, const RunPlan& run)
     : network_(network),
+      route_(*network.route(run.route)),
       path_(path_of(network, run)),
       start_s_(run.motion.start_s),
       seed_(run.seed) {
@@ -35,7 +36,7 @@ Traffic::Traffic(const Network& network, const RunPlan& run)
 void Traffic::place(Moving& moving, const Vehicle& vehicle, double along_m, double lateral_m,
                     double towards) const {
   const cv::Vec2d at = path_.position_at({along_m, lateral_m});
-  const Point centre(at[0], at[1], network_.terrain.height_m(at));
+  const Point centre(at[0], at[1], route_.height_m(network_.terrain, along_m, at));
   const cv::Vec2d forward = forward_of(path_.heading_rad_at(along_m)) * towards;
   vehicle.add_to(moving.surfaces, centre, forward);
   moving.shades.push_back(vehicle.shade(centre, forward));
@@ -46,12 +47,13 @@ Moving Traffic::at(double time_s, double along_m) const {
   Moving moving;
   for (const Vehicle& truck : trucks_) {
     const double gap = kGapM + kGapSwingM * std::sin(along_m / 31 + static_cast<double>(seed_));
-    place(moving, truck, along_m + gap, kLaneM, 1);
+    place(moving, truck, along_m + gap, route_.lane_m, 1);
   }
   for (const Oncoming& car : oncoming_) {
     const double at_m = car.along_m - car.speed_mps * (time_s - start_s_);
     if (std::abs(at_m - along_m) > kSightM || at_m < 0 || at_m > path_.length_m()) continue;
-    place(moving, car.vehicle, at_m, -kLaneM, -1);
+    if (!route_.span_at(at_m).has_oncoming) continue;
+    place(moving, car.vehicle, at_m, route_.lane_m - 2 * kLaneM, -1);
   }
   return moving;
 }

@@ -10,7 +10,7 @@
 
 namespace milepost::simulator {
 
-// Immutable, so safe to share between threads.
+// Immutable, so safe to share between threads. Refers to a network, which must outlive it.
 class Traffic {
  public:
   Traffic(const Network& network, const RunPlan& run);
@@ -29,6 +29,7 @@ class Traffic {
              double towards) const;
 
   const Network& network_;
+  const Route& route_;
   const Path path_;
   double start_s_;
   std::uint64_t seed_;

@@ -26,6 +26,7 @@ struct Record {
   mutable std::mutex mutex;
   std::vector<std::string> targets;
   std::string user_agent;
+  std::string cache_control;
   std::size_t connections = 0;
 };
 
@@ -60,6 +61,7 @@ class Session : public std::enable_shared_from_this<Session> {
       const std::lock_guard lock(record_.mutex);
       record_.targets.push_back(target);
       record_.user_agent = std::string(request_[http::field::user_agent]);
+      record_.cache_control = std::string(request_[http::field::cache_control]);
     }
     const ScriptedAnswer answer = handler_(target);
     if (answer.silent) return wait_for_close();
@@ -142,6 +144,11 @@ std::vector<std::string> ScriptedServer::requests() const {
 std::string ScriptedServer::user_agent() const {
   const std::lock_guard lock(impl_->record.mutex);
   return impl_->record.user_agent;
+}
+
+std::string ScriptedServer::cache_control() const {
+  const std::lock_guard lock(impl_->record.mutex);
+  return impl_->record.cache_control;
 }
 
 std::size_t ScriptedServer::connections() const {

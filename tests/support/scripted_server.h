@@ -35,6 +35,8 @@ class ScriptedServer {
   std::vector<std::string> requests() const;
   // The User-Agent of the last request.
   std::string user_agent() const;
+  // The Cache-Control of the last request, which is being answered within the handler.
+  std::string cache_control() const;
   std::size_t connections() const;
   // Refuses connections from now on and closes those that are open.
   void stop();

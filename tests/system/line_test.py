@@ -13,11 +13,12 @@ from commands import CLIENT, CommandTest, STREET, Server, report_data, rows_of, 
 FIX_COLUMNS = ["timestamp_s", "filename", "status", "segment", "along_m", "sigma_m", "latitude_deg",
                "longitude_deg", "matches", "latency_ms"]
 POSE_COLUMNS = ["lateral_m", "heading_deg", "lateral_sigma_m"]  # of methods that estimate them
-TRUTH_COLUMNS = ["truth_lateral_m", "lateral_error_m", "heading_error_deg"]
+TRUTH_COLUMNS = ["truth_lateral_m", "lateral_error_m", "heading_error_deg", "truth_segment", "distance_m"]
 SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m", "p95_error_m", "frames",
                 "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99",
                 "mean_lateral_error_m", "p95_lateral_error_m", "max_lateral_error_m", "lateral_within_2_sigma",
-                "mean_heading_error_deg", "p95_heading_error_deg", "max_heading_error_deg"]
+                "mean_heading_error_deg", "p95_heading_error_deg", "max_heading_error_deg",
+                "mean_distance_m", "p95_distance_m", "max_distance_m", "wrong_segment_frames"]
 # Every method, and a bound on its mean error in metres: those that interpolate nothing are worse.
 # Bounds of the mean error on the street: about 1.6 times what is measured.
 METHODS = {"wisurf": 2.5, "scale-only": 0.85, "tracklet-matching": 0.35, "tracklet-regression": 0.35,
@@ -35,16 +36,66 @@ def black_png(width, height):
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
-def add_walls(map_file):
-    """Adds a layer of walls with a cell, whose bytes are not read here; the map's build changes."""
-    frame = bytes(100)
-    digest = hashlib.blake2b(frame, digest_size=16).hexdigest()
-    with contextlib.closing(sqlite3.connect(map_file)) as store, store:
-        store.execute("INSERT INTO layers VALUES ('walls', '{\"items\": \"walls\"}')")
-        number, = store.execute("SELECT max(id) + 1 FROM frames").fetchone()
-        store.execute("INSERT INTO frames VALUES (?, ?)", (number, frame))
-        store.execute("INSERT INTO cells VALUES ('walls', 2001637680, 3, 100, ?, ?)", (digest, number))
-        store.execute("UPDATE meta SET value = ? WHERE key = 'build'", (digest,))
+def canonical(value):
+    """JSON by RFC 8785 (FORMAT.md 7.1), for numbers that need no exponent."""
+    if isinstance(value, dict):
+        return "{" + ",".join(f"{json.dumps(key)}:{canonical(value[key])}" for key in sorted(value)) + "}"
+    if isinstance(value, list):
+        return "[" + ",".join(map(canonical, value)) + "]"
+    if isinstance(value, float):
+        return str(int(value)) if value.is_integer() else repr(value)
+    return json.dumps(value)
+
+
+def digest_of(content):
+    return hashlib.blake2b(content, digest_size=16).hexdigest()
+
+
+class MapFile:
+    """The documents of a map file, written by FORMAT.md 7 alone."""
+    def __init__(self, file):
+        with contextlib.closing(sqlite3.connect(file)) as store:
+            self.store = store
+            self.meta = dict(store.execute("SELECT key, value FROM meta"))
+            self.manifest = {"areas": self.listed({"cells": self.cells()}), "format": 3,
+                             "map": self.listed(self.summary()), "segments": self.segments()}
+
+    def listed(self, document):
+        content = canonical(document).encode()
+        return {"bytes": len(content), "digest": digest_of(content)}
+
+    def rows(self, names, source, *values):
+        names = names.split()
+        return [dict(zip(names, row)) for row in self.store.execute(f"SELECT {', '.join(names)} FROM {source}", values)]
+
+    def cells(self):
+        assert not self.store.execute("SELECT * FROM cells").fetchall()
+        return {}
+
+    def summary(self):
+        layers = dict(self.store.execute("SELECT name, parameters FROM layers ORDER BY name"))
+        total_m = 0.0
+        for segments, (length_m,) in enumerate(self.store.execute("SELECT length_m FROM segments ORDER BY id"), 1):
+            total_m += length_m
+        return {"layers": sorted(layers), "layer_parameters": {name: json.loads(layers[name]) for name in layers},
+                "feature": json.loads(self.meta["feature"]), "segment_count": segments, "length_m": total_m,
+                "bounds": {side: self.meta[side] for side in ("west_deg", "south_deg", "east_deg", "north_deg")}}
+
+    def segments(self):
+        return [{**self.listed(self.segment(name)), "segment": name}
+                for (name,) in self.store.execute("SELECT id FROM segments ORDER BY id").fetchall()]
+
+    def segment(self, name):
+        (length_m,), = self.store.execute("SELECT length_m FROM segments WHERE id = ?", (name,))
+        line = self.store.execute("SELECT latitude_deg, longitude_deg, altitude_m, along_m FROM vertices"
+                                  " WHERE segment = ? ORDER BY position", (name,))
+        tiles = {}
+        for tile in self.rows("layer number from_m to_m items bytes digest",
+                              "tiles WHERE segment = ? ORDER BY layer, number", name):
+            tile["index"] = tile.pop("number")
+            tiles.setdefault(tile.pop("layer"), []).append(tile)
+        return {"segment": name, "length_m": length_m, "line": [list(vertex) for vertex in line], "tiles": tiles,
+                "successors": [], "passes": self.rows("drive from_m to_m", "passes WHERE segment = ?", name)}
 
 
 class Line(CommandTest):
@@ -90,6 +141,14 @@ class Line(CommandTest):
         self.assertEqual(by_http, by_file)
         self.assertEqual(by_cache, by_file)
 
+    def test_the_build_by_the_format_alone(self):
+        """Whoever has FORMAT.md finds the same bytes, and so the same digests."""
+        self.build_map("--lab")
+        manifest = MapFile(self.map)
+        content = canonical(manifest.manifest)
+        self.assertEqual(content, manifest.meta["manifest"])
+        self.assertEqual(digest_of(content.encode()), manifest.meta["build"])
+
     def test_evaluate(self):
         self.build_map("--lab")
         out = self.folder / "results"
@@ -125,9 +184,11 @@ class Line(CommandTest):
         self.expect_done(self.localize("--map", self.map))
         alone = self.expect_fixes()
         summaries = [self.summary_of_evaluation()]
-        add_walls(self.map)
-        walls = run(commands.MAPPER, "export", "--map", self.map, "--layer", "walls", "--geojson", self.folder / "w.json")
-        self.expect_refused(walls, 1, "layer walls, cell 2001637680")  # it exists
+        corner = [float(alone[-1][key]) for key in ("longitude_deg", "latitude_deg")]
+        house = [[corner[0] + east, corner[1] + north] for east, north in
+                 ((0, 0), (1e-4, 0), (1e-4, 1e-4), (0, 1e-4), (0, 0))]
+        (self.folder / "house.json").write_text(json.dumps({"type": "Polygon", "coordinates": [house]}))
+        self.expect_done(run(commands.MAPPER, "aerial", "--footprints", self.folder / "house.json", "--map", self.map))
         self.expect_done(self.localize("--map", self.map))
         beside = self.expect_fixes()
         with Server(self.maps) as server:
@@ -209,6 +270,10 @@ class Line(CommandTest):
         self.assertEqual(len(errors), entry["localized_frames"])
         self.assertAlmostEqual(sum(errors) / len(errors), entry["mean_error_m"], delta=1e-3)
         self.assertAlmostEqual(max(errors), entry["max_error_m"], delta=1e-3)
+        self.assertEqual({row["truth_segment"] for row in rows}, {"street-map-0"})
+        self.assertEqual(entry["wrong_segment_frames"], 0)
+        distances = [float(row["distance_m"]) for row in rows if row["distance_m"]]
+        self.assertAlmostEqual(max(distances), entry["max_distance_m"], delta=1e-3)
         lateral = [row for row in rows if row["lateral_m"]]
         self.assertEqual(bool(lateral), entry["mean_lateral_error_m"] is not None)
         for row in lateral:

@@ -49,8 +49,10 @@ class Mapper(CommandTest):
         collection = json.loads(roads.read_text())
         self.assertEqual(collection["type"], "FeatureCollection")
         feature, = collection["features"]
-        self.assertEqual(feature["properties"]["id"], "street-map")
+        self.assertEqual(feature["properties"]["id"], "street-map-0")
         self.assertEqual(feature["properties"]["successors"], [])
+        driven, = feature["properties"]["passes"]
+        self.assertEqual(driven, {"drive": "street-map", "from_m": 0, "to_m": feature["properties"]["length_m"]})
         self.assertAlmostEqual(feature["properties"]["length_m"], 60, delta=3)
         self.assertEqual(feature["geometry"]["type"], "LineString")
         self.assertGreater(len(feature["geometry"]["coordinates"]), 20)

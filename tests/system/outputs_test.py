@@ -9,7 +9,7 @@ import tempfile
 import zlib
 
 import commands
-from commands import CLIENT, CommandTest, MAPPER, STREET, run
+from commands import CLIENT, CommandTest, MAPPER, STREET, edit_json, run
 
 NOTES = "my notes, the only copy\n"
 FIXES = "timestamp_s,filename,status,segment,along_m,sigma_m,latitude_deg,longitude_deg,matches,latency_ms\n"
@@ -127,6 +127,7 @@ class Outputs(CommandTest):
     def test_one_drive_without_anything_is_named(self):
         dark = self.copy_of(STREET / "street-query", "dark")
         self.blacken(dark)
+        edit_json(dark / "drive.json", lambda drive: drive["origin"].__setitem__("longitude_deg", 8.5))  # another road
         words = ("build", "--drive", STREET / "street-map", "--drive", dark, "--map", self.folder / "two.map")
         self.expect_refused(run(MAPPER, *words), 1, str(dark), "tracklets 0")
         self.assertFalse((self.folder / "two.map").exists())

@@ -17,6 +17,7 @@ class AlongFilter {
  public:
   virtual ~AlongFilter() = default;
 
+  virtual std::unique_ptr<AlongFilter> clone() const = 0;
   virtual void reset(const AlongBelief& belief) = 0;
   // Predicts by `step_m` (Eq. 16) with the transition noise of Eq. 17.
   virtual void predict(double step_m, double sigma_w_m) = 0;

@@ -19,6 +19,7 @@ class ArcLengthTracker {
  public:
   virtual ~ArcLengthTracker() = default;
 
+  virtual std::unique_ptr<ArcLengthTracker> clone() const = 0;
   virtual void start(double timestamp_s, const Measurement& measurement) = 0;
   // The predicted position at a time after the last frame.
   virtual TrackedPose predict(double timestamp_s) const = 0;

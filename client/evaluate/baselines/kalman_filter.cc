@@ -5,6 +5,10 @@ namespace {
 
 class KalmanFilter : public AlongFilter {
  public:
+  std::unique_ptr<AlongFilter> clone() const override {
+    return std::make_unique<KalmanFilter>(*this);
+  }
+
   void reset(const AlongBelief& belief) override { belief_ = belief; }
 
   void predict(double step_m, double sigma_w_m) override {

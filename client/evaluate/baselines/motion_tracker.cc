@@ -11,6 +11,10 @@ class MotionTracker : public ArcLengthTracker {
  public:
   explicit MotionTracker(const MotionTrackerSettings& settings) : settings_(settings) {}
 
+  std::unique_ptr<ArcLengthTracker> clone() const override {
+    return std::make_unique<MotionTracker>(*this);
+  }
+
   void start(double timestamp_s, const Measurement& measurement) override {
     latest_s_ = timestamp_s;
     refusals_ = 0;

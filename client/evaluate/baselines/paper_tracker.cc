@@ -22,6 +22,16 @@ class PaperTracker : public ArcLengthTracker {
  public:
   explicit PaperTracker(const PaperTrackerSettings& settings)
       : settings_(settings), filter_(make_filter(settings)) {}
+  PaperTracker(const PaperTracker& other)
+      : settings_(other.settings_),
+        filter_(other.filter_->clone()),
+        latest_s_(other.latest_s_),
+        before_(other.before_),
+        frames_(other.frames_) {}
+
+  std::unique_ptr<ArcLengthTracker> clone() const override {
+    return std::make_unique<PaperTracker>(*this);
+  }
 
   void start(double timestamp_s, const Measurement& measurement) override {
     latest_s_ = timestamp_s;

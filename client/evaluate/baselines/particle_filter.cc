@@ -16,6 +16,10 @@ class ParticleFilter : public AlongFilter {
   ParticleFilter(std::size_t particles, std::uint64_t seed)
       : random_(seed), along_m_(particles), weights_(particles) {}
 
+  std::unique_ptr<AlongFilter> clone() const override {
+    return std::make_unique<ParticleFilter>(*this);
+  }
+
   void reset(const AlongBelief& belief) override {
     std::normal_distribution<double> prior(belief.along_m, std::sqrt(belief.variance_m2));
     for (double& along_m : along_m_) along_m = prior(random_);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "client/evaluate/baselines/matching.h"
 #include "client/evaluate/baselines/methods.h"
@@ -14,23 +15,32 @@ constexpr double kStartRefineM = 3;  // half width around the start, for the sec
 
 class TrackletTracker : public SegmentTracker {
  public:
-  TrackletTracker(const SegmentLayer& layer, const Camera& camera, const MethodSettings& settings,
-                  const TrackletMethod& method)
-      : feature_(layer.feature()),
-        scale_ratio_(layer.parameters().focal_px() / camera.pinhole.focal_px()),
-        image_width_px_(camera.width_px),
-        min_start_support_(settings.min_start_support),
-        on_estimate_(settings.on_estimate),
+  TrackletTracker(const std::shared_ptr<const SegmentLayer>& layer, const Camera& camera,
+                  const MethodSettings& settings, const TrackletMethod& method)
+      : layer_(layer),
+        camera_(camera),
+        settings_(settings),
         method_(method),
-        window_(layer.key, {settings.reach, method.index}),
+        window_(layer->key, {settings.reach, method.index}),
         tracker_(make_tracker(method)) {}
+
+  const std::shared_ptr<const SegmentLayer>& layer() const override { return layer_; }
+
+  std::unique_ptr<SegmentTracker> continued_on(const std::shared_ptr<const SegmentLayer>& successor,
+                                               double begin_m) const override {
+    auto continued = std::make_unique<TrackletTracker>(successor, camera_, settings_, method_);
+    continued->begin_m_ = begin_m_ + begin_m;
+    continued->tracker_ = tracker_->clone();
+    continued->likelihood_ = likelihood_;
+    return continued;
+  }
 
   // Finds a start in two passes: with all tracklets in `around`, then with those near the result.
   // Returns the number of inlier tracklets; none without enough support.
   std::optional<int> begin(SharedFrame& frame, const AlongRange& around) {
     const auto matches = matches_in(frame, around);
     const auto found = combine_robustly(estimates_of(matches), method_.robust);
-    if (!found || found->support < min_start_support_) return std::nullopt;
+    if (!found || found->support < settings_.min_start_support) return std::nullopt;
     const auto near = AlongRange{found->along_m, found->along_m}.widened(kStartRefineM);
     const auto again = matches_in(frame, near);
     const Measurement first = combine(estimates_of(again), method_).value_or(*found);
@@ -42,16 +52,19 @@ class TrackletTracker : public SegmentTracker {
   const std::optional<Error>& failure() const { return covered_.failure; }
 
   AlongRange needed(double timestamp_s) const override {
-    return tracker_->search_region(timestamp_s);
+    return tracker_->search_region(timestamp_s).shifted(-begin_m_);
   }
 
-  TrackedPose pose_at(double timestamp_s) const override { return tracker_->predict(timestamp_s); }
+  TrackedPose pose_at(double timestamp_s) const override {
+    return on_segment(tracker_->predict(timestamp_s));
+  }
 
   TrackingResult track(SharedFrame& frame) override {
     TrackingResult result;
-    const auto matches = matches_in(frame, tracker_->search_region(frame.timestamp_s()));
+    const auto matches = matches_in(frame, needed(frame.timestamp_s()));
     report_estimates(matches);
-    const auto measured = combine(estimates_of(matches), method_);
+    auto measured = combine(estimates_of(matches), method_);
+    if (measured) measured->along_m += begin_m_;
     result.failure = covered_.failure;
     result.measured = tracker_->advance(frame.timestamp_s(), measured);
     result.matches = result.measured ? measured->support : 0;
@@ -59,13 +72,20 @@ class TrackletTracker : public SegmentTracker {
     return result;
   }
 
-  TrackedPose pose() const override { return tracker_->pose(); }
+  TrackedPose pose() const override { return on_segment(tracker_->pose()); }
 
  private:
+  TrackedPose on_segment(TrackedPose pose) const {
+    pose.along_m -= begin_m_;
+    return pose;
+  }
+
   std::vector<TrackletMatch> matches_in(SharedFrame& frame, const AlongRange& region) {
     covered_ = window_.cover(frame.held(), region);
-    return match_tracklets(frame.features(feature_), scale_ratio_, image_width_px_, window_, region,
-                           method_.match);
+    // Converts scales of the query camera to those of the map's.
+    const double scale_ratio = layer_->parameters().focal_px() / camera_.pinhole.focal_px();
+    return match_tracklets(frame.features(layer_->feature()), scale_ratio, camera_.width_px,
+                           window_, region, method_.match);
   }
 
   static std::vector<PositionEstimate> estimates_of(const std::vector<TrackletMatch>& matches) {
@@ -76,30 +96,32 @@ class TrackletTracker : public SegmentTracker {
   }
 
   void report_estimates(const std::vector<TrackletMatch>& matches) const {
-    if (!on_estimate_) return;
+    if (!settings_.on_estimate) return;
     for (const TrackletMatch& match : matches) {
       const Tracklet& tracklet = window_.tracklets()[match.tracklet];
-      on_estimate_({match.estimate, match.scale_px, tracklet.along, tracklet.r_squared});
+      settings_.on_estimate({match.estimate, match.scale_px, tracklet.along, tracklet.r_squared});
     }
   }
 
-  FeatureParameters feature_;
-  double scale_ratio_;  // converts scales of the query camera to those of the map's
-  int image_width_px_;
-  int min_start_support_;
-  std::function<void(const TrackletEstimate&)> on_estimate_;
+  std::shared_ptr<const SegmentLayer> layer_;
+  Camera camera_;
+  MethodSettings settings_;
   TrackletMethod method_;
   TrackletWindow window_;
   Covered covered_;  // of the latest region
   std::unique_ptr<ArcLengthTracker> tracker_;
+  double begin_m_ = 0;  // of the segment, in the tracker's arc length: where its way began is 0
   PaperLikelihood likelihood_;
 };
 
 class TrackletRelocalizer : public Relocalizer {
  public:
-  TrackletRelocalizer(const SegmentLayer& layer, const Camera& camera, MethodSettings settings,
-                      const TrackletMethod& method)
-      : layer_(layer), camera_(camera), settings_(std::move(settings)), method_(method) {}
+  TrackletRelocalizer(std::shared_ptr<const SegmentLayer> layer, const Camera& camera,
+                      MethodSettings settings, const TrackletMethod& method)
+      : layer_(std::move(layer)),
+        camera_(camera),
+        settings_(std::move(settings)),
+        method_(method) {}
 
   Relocalization relocalize(SharedFrame& frame, const AlongRange& around,
                             const std::optional<LearnedCamera>& /*camera*/) override {
@@ -115,7 +137,7 @@ class TrackletRelocalizer : public Relocalizer {
   }
 
  private:
-  const SegmentLayer& layer_;
+  std::shared_ptr<const SegmentLayer> layer_;
   Camera camera_;
   MethodSettings settings_;
   TrackletMethod method_;
@@ -124,11 +146,11 @@ class TrackletRelocalizer : public Relocalizer {
 }  // namespace
 
 MakeRelocalizer tracklet_relocalizers(const TrackletMethod& method) {
-  return [method](const SegmentLayer& layer, const Camera& camera,
+  return [method](const std::shared_ptr<const SegmentLayer>& layer, const Camera& camera,
                   const MethodSettings& settings) -> Result<std::unique_ptr<Relocalizer>> {
-    const LayerItems items = layer.parameters().items;
+    const LayerItems items = layer->parameters().items;
     if (items != LayerItems::tracklets && items != LayerItems::observations) {
-      return unusable_items(layer);
+      return unusable_items(*layer);
     }
     return std::unique_ptr<Relocalizer>(
         std::make_unique<TrackletRelocalizer>(layer, camera, settings, method));

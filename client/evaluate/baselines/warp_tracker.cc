@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "client/evaluate/baselines/frame_window.h"
 #include "client/evaluate/baselines/methods.h"
@@ -44,12 +45,26 @@ class PathCosts {
 
 class WarpTracker : public SegmentTracker {
  public:
-  WarpTracker(const SegmentLayer& layer, const Camera& camera, const MethodSettings& settings,
-              const WarpMethod& method)
+  WarpTracker(const std::shared_ptr<const SegmentLayer>& layer, const Camera& camera,
+              const WindowReach& reach, const WarpMethod& method)
       : layer_(layer),
         camera_(camera),
+        reach_(reach),
         method_(method),
-        window_(layer.key, settings.reach, method.index) {}
+        window_(layer->key, reach, method.index) {}
+
+  const std::shared_ptr<const SegmentLayer>& layer() const override { return layer_; }
+
+  std::unique_ptr<SegmentTracker> continued_on(const std::shared_ptr<const SegmentLayer>& successor,
+                                               double begin_m) const override {
+    auto continued = std::make_unique<WarpTracker>(successor, camera_, reach_, method_);
+    continued->row_ = row_;
+    for (WarpCell& cell : continued->row_) cell.along_m -= begin_m;
+    continued->path_costs_ = path_costs_;
+    continued->latest_s_ = latest_s_;
+    continued->likelihood_ = likelihood_;
+    return continued;
+  }
 
   // The matches at the best position in `around`, and its cost; none if there is no frame to
   // compare with.
@@ -133,8 +148,8 @@ class WarpTracker : public SegmentTracker {
       if (!frame.frame().image || !map_frame.frame().image) return std::nullopt;
       return image_distance(frame.frame().image(), *map_frame.frame().image);
     }
-    const auto change = scale_change(frame.features(layer_.feature()),
-                                     layer_.parameters().focal_px() / camera_.pinhole.focal_px(),
+    const auto change = scale_change(frame.features(layer_->feature()),
+                                     layer_->parameters().focal_px() / camera_.pinhole.focal_px(),
                                      camera_.width_px, map_frame, method_.scale);
     if (!change) return std::nullopt;
     matches = change->matches;
@@ -160,8 +175,9 @@ class WarpTracker : public SegmentTracker {
     return (row_.back().along_m - row_.front().along_m) / static_cast<double>(row_.size() - 1);
   }
 
-  const SegmentLayer& layer_;
+  std::shared_ptr<const SegmentLayer> layer_;
   Camera camera_;
+  WindowReach reach_;
   WarpMethod method_;
   FrameWindow window_;
   Covered covered_;  // of the latest band
@@ -173,13 +189,13 @@ class WarpTracker : public SegmentTracker {
 
 class WarpRelocalizer : public Relocalizer {
  public:
-  WarpRelocalizer(const SegmentLayer& layer, const Camera& camera, MethodSettings settings,
-                  const WarpMethod& method)
-      : layer_(layer), camera_(camera), settings_(std::move(settings)), method_(method) {}
+  WarpRelocalizer(std::shared_ptr<const SegmentLayer> layer, const Camera& camera,
+                  const WindowReach& reach, const WarpMethod& method)
+      : layer_(std::move(layer)), camera_(camera), reach_(reach), method_(method) {}
 
   Relocalization relocalize(SharedFrame& frame, const AlongRange& around,
                             const std::optional<LearnedCamera>& /*camera*/) override {
-    auto tracker = std::make_unique<WarpTracker>(layer_, camera_, settings_, method_);
+    auto tracker = std::make_unique<WarpTracker>(layer_, camera_, reach_, method_);
     const auto begun = tracker->begin(frame, around);
     Relocalization found;
     found.failure = tracker->failure();
@@ -192,20 +208,20 @@ class WarpRelocalizer : public Relocalizer {
   }
 
  private:
-  const SegmentLayer& layer_;
+  std::shared_ptr<const SegmentLayer> layer_;
   Camera camera_;
-  MethodSettings settings_;
+  WindowReach reach_;
   WarpMethod method_;
 };
 
 }  // namespace
 
 MakeRelocalizer warp_relocalizers(const WarpMethod& method) {
-  return [method](const SegmentLayer& layer, const Camera& camera,
+  return [method](const std::shared_ptr<const SegmentLayer>& layer, const Camera& camera,
                   const MethodSettings& settings) -> Result<std::unique_ptr<Relocalizer>> {
-    if (layer.parameters().items != LayerItems::frames) return unusable_items(layer);
+    if (layer->parameters().items != LayerItems::frames) return unusable_items(*layer);
     return std::unique_ptr<Relocalizer>(
-        std::make_unique<WarpRelocalizer>(layer, camera, settings, method));
+        std::make_unique<WarpRelocalizer>(layer, camera, settings.reach, method));
   };
 }
 

@@ -27,7 +27,7 @@ enum class FixStatus {
   tracking,      // this image was measured against the map
   predicted,     // no measurement, or one that contradicts the pose: propagated by the motion
   lost,          // the pose was rejected; relocalizing around the last fix or the GNSS position
-  off_map,       // no mapped road is near, or the vehicle drove past the end of one
+  off_map,       // no mapped road is near, or the vehicle left it: the pose is carried on by motion
 };
 
 // "initializing", "tracking", "predicted", "lost", "off-map".

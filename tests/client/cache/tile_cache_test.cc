@@ -130,7 +130,7 @@ TEST_F(TileCacheTest, AFileThatIsNoDatabaseIsSetAside) {
 
 TEST_F(TileCacheTest, ACacheOfAnotherLayoutIsSetAside) {
   open()->store(numbered_key(1), as_bytes("theirs"));
-  change_database("PRAGMA user_version = 1");
+  change_database("PRAGMA user_version = 2");
   const auto cache = open();
   EXPECT_EQ(cache->find(numbered_key(1)), std::nullopt);
   cache->store(numbered_key(1), as_bytes("ours"));

@@ -42,5 +42,19 @@ TEST(SensorLog, AReceiversTimeRoundedUpIsInTime) {
   EXPECT_THAT(times_of(log.odometry_until(1.0004)), IsEmpty());
 }
 
+TEST(IgnoredReceiver, ReadingsAfterItsTimeAreGone) {
+  Drive drive;
+  drive.frames.resize(2);
+  drive.frames[0].timestamp_s = 100.0004;
+  for (const double timestamp_s : {99.0, 100.001, 101.0, 103.0})
+    drive.gps.push_back({timestamp_s, {}, 5});
+  Drive some = drive;
+  ignore_receiver_after(some, 1);
+  EXPECT_EQ(some.gps.size(), 3U);
+  ignore_receiver_after(drive, 0);
+  ASSERT_EQ(drive.gps.size(), 2U);  // that of the first frame, rounded up, is not after it
+  EXPECT_EQ(drive.gps.back().timestamp_s, 100.001);
+}
+
 }  // namespace
 }  // namespace milepost

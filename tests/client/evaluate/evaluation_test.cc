@@ -18,8 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-//        lateral is positive to the right, south of a road that runs east
-//   o---------------------------------------->  100 m
+// A road that runs 100 m to the north: lateral is positive to the right, to the east.
 constexpr double kRoadM = 100;
 constexpr double kMm = 0.001;
 
@@ -32,7 +31,7 @@ GeoPoint at(double east_m, double north_m) {
 class RoadMap : public testing::MemorySource {
  public:
   RoadMap() : MemorySource({"town", "b1"}, "layer", nlohmann::json::object()) {
-    add({"road", kRoadM, {at(0, 0), at(kRoadM, 0)}, {}}, {});
+    add({"road", kRoadM, {at(0, 0), at(0, kRoadM)}, {}}, {});
   }
   Result<std::vector<NearbySegment>> segments_near(const GeoPoint& /*position*/,
                                                    double /*radius_m*/) override {
@@ -73,7 +72,7 @@ Drive northward_drive(std::size_t frames) {
   Drive drive;
   for (std::size_t i = 0; i < frames; ++i) {
     Frame frame;
-    frame.position = at(10 * static_cast<double>(i + 1), -2);
+    frame.position = at(2, 10 * static_cast<double>(i + 1));
     frame.heading_deg = 359;
     drive.frames.push_back(frame);
   }
@@ -166,7 +165,8 @@ TEST(Evaluation, SummaryAppendsItsNewFiguresToTheOldOnes) {
                   "p95_error_m", "frames", "localized_frames", "within_2_sigma", "map_kb_per_m",
                   "latency_ms_p50", "latency_ms_p99", "mean_lateral_error_m", "p95_lateral_error_m",
                   "max_lateral_error_m", "lateral_within_2_sigma", "mean_heading_error_deg",
-                  "p95_heading_error_deg", "max_heading_error_deg"));
+                  "p95_heading_error_deg", "max_heading_error_deg", "mean_distance_m",
+                  "p95_distance_m", "max_distance_m", "wrong_segment_frames"));
   EXPECT_NEAR(list.at(0).at("mean_lateral_error_m"), 0.25, kMm);
   EXPECT_NEAR(list.at(0).at("max_heading_error_deg"), 1, 1e-9);
   const std::string text = summary_text({evaluation});
@@ -187,13 +187,14 @@ TEST(Evaluation, FixesHaveTheirNewColumnsAfterTheOldOnes) {
             "0.0000,a.jpg,tracking,road,10.1250,0.2000,,,0,0.00,2.2500,0.0000,0.2000");
   EXPECT_EQ(localized.at(2), "0.0000,b.jpg,tracking,road,20.0000,0.2000,,,0,0.00,,,");
   const std::vector<std::string> lines = lines_of(evaluated_fixes_csv(evaluation.fixes));
-  EXPECT_EQ(lines.at(0), columns +
-                             "truth_along_m,error_m,lateral_m,heading_deg,lateral_sigma_m,"
-                             "truth_lateral_m,lateral_error_m,heading_error_deg");
+  EXPECT_EQ(lines.at(0),
+            columns +
+                "truth_along_m,error_m,lateral_m,heading_deg,lateral_sigma_m,"
+                "truth_lateral_m,lateral_error_m,heading_error_deg,truth_segment,distance_m");
   EXPECT_EQ(lines.at(1), localized.at(1).substr(0, localized.at(1).find(",2.2500")) +
-                             ",10.0000,0.1250,2.2500,0.0000,0.2000,2.0000,0.2500,1.0000");
+                             ",10.0000,0.1250,2.2500,0.0000,0.2000,2.0000,0.2500,1.0000,road,");
   EXPECT_THAT(lines.at(2), StartsWith("0.0000,b.jpg,"));
-  EXPECT_THAT(lines.at(2), ::testing::EndsWith(",20.0000,0.0000,,,,2.0000,,"));
+  EXPECT_THAT(lines.at(2), ::testing::EndsWith(",20.0000,0.0000,,,,2.0000,,,road,"));
 }
 
 }  // namespace

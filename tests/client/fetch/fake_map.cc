@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "schema/base/digest.h"
+#include "schema/document/manifest.h"
+#include "schema/document/map_documents.h"
 #include "schema/feature/types.h"
 
 namespace milepost::testing {
@@ -16,6 +18,9 @@ using nlohmann::json;
 constexpr std::uint32_t kTiles = 10;
 
 constexpr std::uint32_t kCells = 9;
+
+constexpr const char* kTracklets = R"({"items": "tracklets", "focal_px": [400, 900]})";
+constexpr const char* kWalls = R"({"items": "walls"})";
 
 std::string text_of(const Bytes& bytes) { return std::string(as_text(bytes)); }
 
@@ -46,63 +51,48 @@ Bytes FakeMap::encoded_tile(std::uint32_t index_of_tile) const {
 
 Bytes FakeMap::encoded_cell(std::uint32_t k) const { return random_bytes(500 + 10 * k, k + 101); }
 
+std::string FakeMap::build() const { return digest_of(as_bytes(manifest())); }
+
 std::string FakeMap::catalog_document() const {
-  return json{{"maps", {{{"name", "town"}, {"build", build}}}}}.dump();
+  return json{{"maps", {{{"name", "town"}, {"build", build()}}}}}.dump();
+}
+
+std::string FakeMap::current_document() const {
+  json document = json::parse(map_document());
+  document["name"] = "town";
+  document["build"] = build();
+  return document.dump();
+}
+
+std::string FakeMap::manifest() const {
+  return manifest_document({ListedDocument::of(map_document()),
+                            ListedDocument::of(areas_document()),
+                            {{"s1", ListedDocument::of(segment_document())}}});
 }
 
 std::string FakeMap::map_document() const {
-  return json{
-      {"name", "town"},
-      {"build", build},
-      {"layers", {"tracklets", "walls"}},
-      {"layer_parameters",
-       {{"tracklets", {{"items", "tracklets"}, {"focal_px", {400, 900}}}},
-        {"walls", {{"items", "walls"}}}}},
-      {"feature", to_json(FeatureParameters())},
-      {"bounds", {{"west_deg", 8.4}, {"south_deg", 49}, {"east_deg", 8.4}, {"north_deg", 49.0018}}},
-      {"segments", {"s1"}},
-      {"length_m", 200}}
-      .dump();
+  return *milepost::map_document({.layers = {{"tracklets", kTracklets}, {"walls", kWalls}},
+                                  .feature_json = to_json(FeatureParameters()).dump(),
+                                  .bounds = {8.4, 49, 8.4, 49.0018},
+                                  .segments = 1,
+                                  .length_m = 200});
 }
 
 std::string FakeMap::segment_document() const {
-  json tiles = json::array();
-  for (const TileEntry& entry : index) {
-    tiles.push_back({{"index", entry.index},
-                     {"from_m", entry.along.from_m},
-                     {"to_m", entry.along.to_m},
-                     {"items", entry.items},
-                     {"bytes", entry.bytes},
-                     {"digest", entry.digest}});
-  }
-  return json{{"map", "town"},
-              {"build", build},
-              {"segment", "s1"},
-              {"length_m", 200},
-              {"line", {{49.0, 8.4, 110, 0}, {49.0009, 8.4, 110, 100}, {49.0018, 8.4, 111, 200}}},
-              {"successors", {"s2"}},
-              {"tiles", {{"tracklets", tiles}}}}
-      .dump();
+  const StoredSegment segment{
+      "s1",
+      200,
+      {{49.0, 8.4, 110, 0}, {49.0009, 8.4, 110, 100}, {49.0018, 8.4, 111, 200}},
+      {{"s2"}, {"s9", "village"}},
+      {{"morning", 40, 240}},
+      {0.15, 100, true}};
+  return milepost::segment_document(segment, {{"tracklets", index}});
 }
 
-std::string FakeMap::areas_document() const {
-  json walls = json::array();
-  for (const CellEntry& entry : cells) {
-    const Bounds bounds = GridCell::numbered(entry.cell).bounds();
-    walls.push_back({{"cell", entry.cell},
-                     {"west_deg", bounds.west_deg},
-                     {"south_deg", bounds.south_deg},
-                     {"east_deg", bounds.east_deg},
-                     {"north_deg", bounds.north_deg},
-                     {"items", entry.items},
-                     {"bytes", entry.bytes},
-                     {"digest", entry.digest}});
-  }
-  return json{{"map", "town"}, {"build", build}, {"cells", {{"walls", walls}}}}.dump();
-}
+std::string FakeMap::areas_document() const { return milepost::areas_document({{"walls", cells}}); }
 
 std::string FakeMap::near_document() const {
-  const json entry = {{"map", "town"},   {"build", build},     {"segment", "s1"},
+  const json entry = {{"map", "town"},   {"build", build()},   {"segment", "s1"},
                       {"along_m", 50.0}, {"distance_m", 1.25}, {"length_m", 200}};
   return json{{"segments", {entry}}}.dump();
 }
@@ -124,11 +114,16 @@ std::string FakeMap::box_body(const Bounds& box) const {
 }
 
 ScriptedAnswer FakeMap::answer(const std::string& target) const {
-  const std::string segment = "/v1/maps/town/builds/" + build + "/segments/s1";
-  const std::string areas = "/v1/maps/town/builds/" + build + "/areas";
+  const std::string root = "/v1/maps/town/builds/" + build();
+  const std::string segment = root + "/segments/s1";
+  const std::string areas = root + "/areas";
+  const bool is_old = target.starts_with("/v1/maps/town/builds/") && !target.starts_with(root);
+  if (is_old) return problem(410, "the build was replaced");
   const auto ok = [](std::string body) { return ScriptedAnswer{.body = std::move(body)}; };
   if (target == "/v1/maps") return ok(catalog_document());
-  if (target == "/v1/maps/town") return ok(map_document());
+  if (target == "/v1/maps/town") return ok(current_document());
+  if (target == root + "/manifest") return ok(manifest());
+  if (target == root + "/map") return ok(map_document());
   if (target == areas) return ok(areas_document());
   if (target == segment) return ok(segment_document());
   if (target.starts_with("/v1/segments?")) return ok(near_document());

@@ -25,11 +25,15 @@ class FakeMap {
  public:
   FakeMap();
 
-  MapVersion version() const { return {"town", build}; }
+  // The digest of the manifest: another one whenever `index` or `cells` are changed.
+  std::string build() const;
+  MapVersion version() const { return {"town", build()}; }
   Bytes encoded_tile(std::uint32_t index) const;
   Bytes encoded_cell(std::uint32_t k) const;
 
   std::string catalog_document() const;
+  std::string current_document() const;  // of /v1/maps/town
+  std::string manifest() const;
   std::string map_document() const;
   std::string segment_document() const;
   std::string areas_document() const;
@@ -42,7 +46,6 @@ class FakeMap {
   // The response of a correct server.
   ScriptedAnswer answer(const std::string& target) const;
 
-  std::string build = "00112233445566778899aabbccddeeff";
   std::vector<TileEntry> index;
   std::vector<CellEntry> cells;
 };

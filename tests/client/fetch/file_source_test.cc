@@ -52,8 +52,12 @@ class FileSourceTest : public ::testing::Test {
   }
 
   static void add_segment(MapWriter& writer, const std::string& id, double longitude_deg) {
-    const StoredSegment segment{
-        id, 200.2, {{49, longitude_deg, 110, 0}, {49.0018, longitude_deg, 111, 200.2}}, {"s9"}};
+    const StoredSegment segment{id,
+                                200.2,
+                                {{49, longitude_deg, 110, 0}, {49.0018, longitude_deg, 111, 200.2}},
+                                {{"s9"}, {"s1", "village"}},
+                                {{"morning", 5, 205.2}},
+                                {0.2}};
     const Status added = writer.add_segment(segment);
     EXPECT_TRUE(added.ok()) << added.error().line();
   }
@@ -94,7 +98,10 @@ TEST_F(FileSourceTest, DescribesTheMapAndItsSegments) {
   ASSERT_TRUE(segment.ok());
   EXPECT_EQ(segment->id, "s2");
   EXPECT_EQ(segment->vertices.back(), (GeoPoint{49.0018, 8.401, 111}));
-  EXPECT_THAT(segment->successors, ElementsAre("s9"));
+  EXPECT_THAT(segment->successors,
+              ElementsAre(Successor{"s9", "town"}, Successor{"s1", "village"}));
+  EXPECT_THAT(segment->passes, ElementsAre(StoredPass{"morning", 5, 205.2}));
+  EXPECT_EQ(segment->position_error, PositionError{0.2});
 }
 
 TEST_F(FileSourceTest, ReadsTheTilesOfARange) {

@@ -49,11 +49,12 @@ TEST_F(HttpAreasTest, AColdFetchBringsABoxInOneRequest) {
   expect_cells(*source, kSouthWest, {0, 1, 3, 4});
   // From the middle of cell 0 to the middle of cell 4.
   EXPECT_THAT(cell_requests(), ElementsAre(HasSubstr("/areas/walls?bbox=8.4025")));
-  EXPECT_EQ(server_.requests().size(), 2U);
+  EXPECT_EQ(server_.requests().size(), 3U);  // with the manifest and the index
   const SourceCounters counters = source->counters();
   EXPECT_EQ(counters.tiles_fetched, 4U);
   EXPECT_EQ(counters.tiles_from_cache, 0U);
-  EXPECT_EQ(counters.bytes_received, map_.areas_document().size() + kThreeCells + 540);
+  EXPECT_EQ(counters.bytes_received,
+            map_.manifest().size() + map_.areas_document().size() + kThreeCells + 540);
 }
 
 TEST_F(HttpAreasTest, AWarmCacheNeedsNoRequest) {
@@ -172,7 +173,7 @@ TEST_F(HttpAreasTest, CellsDoNotStandInForTiles) {
     ASSERT_TRUE(tiles.ok()) << tiles.error().line();
     EXPECT_EQ(tiles->front().bytes, map_.encoded_tile(1));
   }
-  EXPECT_EQ(server_.requests().size(), 5U);
+  EXPECT_EQ(server_.requests().size(), 6U);
 }
 
 TEST_F(HttpAreasTest, TheCatalogIsAskedOfTheServer) {
@@ -213,7 +214,8 @@ TEST_F(HttpAreasTest, WithoutAServerAndACacheTheUrlIsNamed) {
 
 TEST_F(HttpAreasTest, TheDocumentsOutliveTheCells) {
   // Space for the documents and one or two cells: the rest is evicted repeatedly.
-  cache_limit_bytes_ = map_.areas_document().size() + map_.map_document().size() + 1200;
+  cache_limit_bytes_ =
+      map_.manifest().size() + map_.areas_document().size() + map_.map_document().size() + 1200;
   const auto source = open_source();
   ASSERT_TRUE(source->describe(map_.version()).ok());
   for (int i = 0; i < 3; ++i) {

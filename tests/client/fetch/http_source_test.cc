@@ -50,13 +50,14 @@ TEST_F(HttpSourceTest, AColdFetchBringsARangeInOneRequest) {
   expect_tiles(*source, {30, 90}, {1, 2, 3, 4});
   // The narrowest range that meets tiles 1 to 4: from the end of 1 to the beginning of 4.
   EXPECT_THAT(tile_requests(), ElementsAre(HasSubstr("from_m=45&to_m=80")));
-  EXPECT_EQ(server_.requests().size(), 2U);
+  EXPECT_EQ(server_.requests().size(), 3U);  // with the manifest and the segment's document
   const SourceCounters counters = source->counters();
-  EXPECT_EQ(counters.requests, 2U);
+  EXPECT_EQ(counters.requests, 3U);
   EXPECT_EQ(counters.tiles_fetched, 4U);
   EXPECT_EQ(counters.tiles_from_cache, 0U);
   const std::size_t tile_bytes = 1010 + 1020 + 1030 + 1040;
-  EXPECT_EQ(counters.bytes_received, map_.segment_document().size() + tile_bytes);
+  EXPECT_EQ(counters.bytes_received,
+            map_.manifest().size() + map_.segment_document().size() + tile_bytes);
   EXPECT_EQ(counters.cache_failures, 0U);
 }
 
@@ -138,7 +139,8 @@ TEST_F(HttpSourceTest, AWrongByteIsRefusedAndNotStored) {
   EXPECT_EQ(error.code, ErrorCode::corrupt);
   EXPECT_THAT(error.line(), HasSubstr("tile 3"));
   EXPECT_THAT(error.line(), HasSubstr(server_.url() + "/v1/maps/town/builds/"));
-  EXPECT_EQ(tile_requests().size(), 1U);
+  EXPECT_EQ(tile_requests().size(), 2U);  // the second one past caches
+  EXPECT_EQ(server_.cache_control(), "no-cache");
   EXPECT_THAT(pauses_s_, IsEmpty());
 
   spoil_tiles(nullptr);
@@ -164,7 +166,7 @@ TEST_F(HttpSourceTest, HostileAnswersAreRefused) {
   for (const auto& [name, body] : bodies) {
     SCOPED_TRACE(name);
     const TempFolder fresh;
-    answer_next("from_m", {{.body = body}});
+    answer_next("from_m", {{.body = body}, {.body = body}});
     HttpSourceSettings settings;
     settings.server_url = server_.url();
     settings.cache_directory = fresh.path();
@@ -177,7 +179,8 @@ TEST_F(HttpSourceTest, HostileAnswersAreRefused) {
 }
 
 TEST_F(HttpSourceTest, AHostileSingleTileIsRefused) {
-  answer_next("/tiles/tracklets/1", {{.body = std::string(as_text(map_.encoded_tile(2)))}});
+  const ScriptedAnswer other = {.body = std::string(as_text(map_.encoded_tile(2)))};
+  answer_next("/tiles/tracklets/1", {other, other});
   EXPECT_EQ(tiles_error(*open_source(), {30, 30}).code, ErrorCode::corrupt);
 }
 
@@ -198,13 +201,14 @@ TEST_F(HttpSourceTest, TheDescriptionOfAnOldBuildIsGone) {
   ASSERT_FALSE(description.ok());
   EXPECT_EQ(description.error().code, ErrorCode::gone);
   EXPECT_THAT(description.error().line(), HasSubstr("the map was rebuilt"));
+  EXPECT_THAT(server_.requests(), ElementsAre(HasSubstr("/manifest")));
 }
 
 TEST_F(HttpSourceTest, ABusyServerIsAskedAgainWhenItSays) {
   answer_next("/segments/s1", {{.status = 503, .headers = {{"Retry-After", "2"}}}});
   EXPECT_TRUE(open_source()->segment(map_.version(), "s1").ok());
   EXPECT_THAT(pauses_s_, ElementsAre(2));
-  EXPECT_EQ(server_.requests().size(), 2U);
+  EXPECT_EQ(server_.requests().size(), 3U);
 }
 
 TEST_F(HttpSourceTest, APauseWithoutReasonIsCutShort) {
@@ -280,7 +284,7 @@ TEST_F(HttpSourceTest, WhatTheServerSaysRenewsWhatIsKnown) {
   answer_next("/v1/segments?", {{.status = 503}});
   EXPECT_TRUE(source->segments_near(position, 50).ok());
   // Another process stores a newer build in the cache, which becomes known here later.
-  map_.build = std::string(32, 'b');
+  map_.index.pop_back();
   now_s_ += 6;
   ASSERT_TRUE(open_source()->segment(map_.version(), "s1").ok());
   EXPECT_EQ(source->segments_near(position, 50)->front().version, map_.version());
@@ -335,7 +339,10 @@ TEST_F(HttpSourceTest, TheSegmentIsDescribed) {
   EXPECT_EQ(segment->length_m, 200);
   ASSERT_EQ(segment->vertices.size(), 3U);
   EXPECT_EQ(segment->vertices[1], (GeoPoint{49.0009, 8.4, 110}));
-  EXPECT_THAT(segment->successors, ElementsAre("s2"));
+  EXPECT_THAT(segment->successors,
+              ElementsAre(Successor{"s2", "town"}, Successor{"s9", "village"}));
+  EXPECT_THAT(segment->passes, ElementsAre(StoredPass{"morning", 40, 240}));
+  EXPECT_EQ(segment->position_error, (PositionError{0.15, 100, true}));
   EXPECT_EQ(*source->layer_bytes(map_.version(), "s1", "tracklets"), 10U * 1000 + 10 * 45);
 }
 
@@ -345,7 +352,7 @@ TEST_F(HttpSourceTest, WhatIsAbsentIsNotFound) {
   ASSERT_FALSE(segment.ok());
   EXPECT_EQ(segment.error().code, ErrorCode::not_found);
   EXPECT_THAT(segment.error().line(), HasSubstr("/segments/s9"));
-  EXPECT_THAT(segment.error().line(), HasSubstr("no such thing"));
+  EXPECT_THAT(segment.error().line(), HasSubstr("the build does not have this segment"));
 
   const auto unknown_layer = source->tiles(map_.version(), "s1", "clouds", {0, 10});
   ASSERT_FALSE(unknown_layer.ok());
@@ -357,14 +364,14 @@ TEST_F(HttpSourceTest, WhatIsAbsentIsNotFound) {
 }
 
 TEST_F(HttpSourceTest, AWrongDocumentIsNotBelievedAndNotStored) {
-  const ScriptedAnswer wrong = {.body = R"({"map": "village"})"};
-  answer_next("/segments/s1", {wrong, wrong, wrong});
+  const ScriptedAnswer wrong = {.body = R"({"segment": "s9"})"};
+  answer_next("/segments/s1", std::vector<ScriptedAnswer>(6, wrong));
   const auto source = open_source();
   const auto segment = source->segment(map_.version(), "s1");
   ASSERT_FALSE(segment.ok());
   EXPECT_EQ(segment.error().code, ErrorCode::unavailable);
   EXPECT_THAT(segment.error().line(), HasSubstr("/segments/s1"));
-  EXPECT_THAT(segment.error().line(), HasSubstr("about \"village\""));
+  EXPECT_THAT(segment.error().line(), HasSubstr("about \"s9\""));
   EXPECT_TRUE(source->segment(map_.version(), "s1").ok());
 }
 
@@ -396,7 +403,7 @@ TEST_F(HttpSourceTest, WorksWithACacheThatHoldsNothing) {
   expect_tiles(*source, {30, 90}, {1, 2, 3, 4});
   expect_tiles(*source, {30, 90}, {1, 2, 3, 4});
   EXPECT_EQ(source->counters().tiles_from_cache, 0U);
-  EXPECT_EQ(server_.requests().size(), 3U);  // the document stays in memory
+  EXPECT_EQ(server_.requests().size(), 4U);  // the documents stay in memory
 }
 
 TEST_F(HttpSourceTest, SeveralThreadsShareASource) {

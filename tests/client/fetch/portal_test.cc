@@ -149,9 +149,9 @@ TEST_F(PortalTest, WithAColdCacheTheUserIsToldWhatAnswered) {
     expect_told(source->segments_near(kPosition, 50).error(),
                 server_.url() + "/v1/segments?near=", portal);
     expect_told(source->maps().error(), server_.url() + "/v1/maps", portal);
-    expect_told(source->describe(map_.version()).error(), server_.url() + "/v1/maps/town", portal);
-    expect_told(source->segment(map_.version(), "s1").error(), "/segments/s1", portal);
-    expect_told(source->cells(map_.version(), "walls", kWholeMap).error(), "/areas", portal);
+    expect_told(source->describe(map_.version()).error(), "/manifest", portal);
+    expect_told(source->segment(map_.version(), "s1").error(), "/manifest", portal);
+    expect_told(source->cells(map_.version(), "walls", kWholeMap).error(), "/manifest", portal);
     answer_all(std::nullopt);
   }
   EXPECT_EQ(entries_of_the_cache(), 0);
@@ -210,7 +210,7 @@ TEST_F(PortalTest, ADeepMapDocumentIsNoAnswer) {
     for (int i = 0; i < 100000; ++i) value += R"({"a":)";
     value += "1" + std::string(100000, '}');
     deep.insert(1, member + value + ",");
-    answer_next("/v1/maps/town", {{.body = deep}, {.body = deep}, {.body = deep}});
+    answer_next("/map", std::vector<ScriptedAnswer>(6, {.body = deep}));
     const auto description = open_source()->describe(map_.version());
     ASSERT_FALSE(description.ok());
     EXPECT_EQ(description.error().code, ErrorCode::unavailable);
@@ -223,9 +223,9 @@ TEST_F(PortalTest, ADeepDocumentInTheCacheIsFetchedAgain) {
   // With its digest, as stored by an earlier version.
   const std::string deep = nested(1000000);
   const auto cache = std::move(TileCache::open({.folder = cache_.path()})).value();
-  cache->store(CacheKey::map_document("town", map_.build), as_bytes(deep));
-  cache->store(CacheKey::areas_document("town", map_.build), as_bytes(deep));
-  cache->store(CacheKey::segment_document("town", map_.build, "s1"), as_bytes(deep));
+  cache->store(CacheKey::map_document("town", map_.build()), as_bytes(deep));
+  cache->store(CacheKey::areas_document("town", map_.build()), as_bytes(deep));
+  cache->store(CacheKey::segment_document("town", map_.build(), "s1"), as_bytes(deep));
   {
     answer_all(ScriptedAnswer{.status = 503});
     const auto source = open_source();

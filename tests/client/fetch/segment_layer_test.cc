@@ -32,7 +32,7 @@ Result<std::shared_ptr<const SegmentLayer>> read_layer(const nlohmann::json& par
                                                        const std::string& layer = "tracklets") {
   const MapVersion town = {"town", "build"};
   const auto source = std::make_shared<testing::MemorySource>(town, "tracklets", parameters);
-  source->add({"road", 111, {{49, 8.4, 110}, {49.001, 8.4, 110}}, {}}, {});
+  source->add({"road", 111, {{49, 8.4, 110}, {49.001, 8.4, 110}}, {{"next", "village"}}}, {});
   const auto read = read_build_layer(*source, town, layer);
   if (!read) return read.error();
   return read_segment_layer(*source, {town, "road"}, layer, *read);
@@ -51,7 +51,9 @@ TEST(SegmentLayer, OfLandmarksHasACodebook) {
   EXPECT_EQ((*layer)->parameters().items, LayerItems::landmarks);
   EXPECT_EQ((*layer)->parameters().projection, projection());
   EXPECT_EQ((*layer)->parameters().focal_px(), 600);
+  EXPECT_EQ((*layer)->parameters().camera_model, CameraModel::pinhole);
   EXPECT_NEAR((*layer)->line.length_m(), 111.2, 0.1);
+  EXPECT_EQ((*layer)->successors, (std::vector<Successor>{{"next", "village"}}));
 }
 
 TEST(SegmentLayer, OfOtherItemsHasNone) {
@@ -66,6 +68,7 @@ TEST(SegmentLayer, OfLandmarksWithoutASoundCodebookIsCorrupt) {
       [](auto& json) { json.erase("codebook"); },
       [](auto& json) { json["codebook"] = 5; },
       [](auto& json) { json["codebook"] = nlohmann::json::array(); },
+      [](auto& json) { json["codebook"].erase("version"); },
       [](auto& json) { json["codebook"].erase("step"); },
       [](auto& json) { json["codebook"]["step"] = -1; },
       [](auto& json) { json["codebook"]["axes"] = "AAAA"; },
@@ -88,8 +91,18 @@ TEST(SegmentLayer, OfBrokenParametersIsCorrupt) {
   parameters = sound_parameters();
   parameters["focal_px"] = {400};
   EXPECT_THAT(message(parameters), HasSubstr("focal_px"));
-  parameters["focal_px"] = {400, -400};
-  EXPECT_THAT(message(parameters), HasSubstr("focal_px"));
+  for (const auto& [x_px, y_px] :
+       std::vector<std::pair<double, double>>{{400, -400}, {-400, -400}, {0, 400}, {400, 1e7}}) {
+    parameters["focal_px"] = {x_px, y_px};
+    EXPECT_THAT(message(parameters), HasSubstr("focal_px"));
+  }
+  parameters = sound_parameters();
+  for (const nlohmann::json& model : {nlohmann::json("fisheye"), nlohmann::json(7)}) {
+    parameters["camera_model"] = model;
+    EXPECT_THAT(message(parameters), HasSubstr("camera_model"));
+  }
+  parameters["camera_model"] = "pinhole";
+  EXPECT_EQ(message(parameters), "no error");
 }
 
 TEST(SegmentLayer, ALayerThatTheMapLacksIsNamed) {

@@ -39,7 +39,12 @@ std::string write_map(const std::filesystem::path& file) {
   EXPECT_TRUE(writer->set_feature_json(to_json(FeatureParameters()).dump()).ok());
   EXPECT_TRUE(writer->add_layer("tracklets", R"({"items":"tracklets","focal_px":[400,900]})").ok());
   EXPECT_TRUE(writer->add_layer("walls", "{}").ok());
-  const StoredSegment segment{"s1", 200.2, {{49, 8.4, 110, 0}, {49.0018, 8.4, 111, 200.2}}, {"s2"}};
+  const StoredSegment segment{"s1",
+                              200.2,
+                              {{49, 8.4, 110, 0}, {49.0018, 8.4, 111, 200.2}},
+                              {{"s2"}, {"s2", "village"}},
+                              {{"morning", 0, 200.2}},
+                              {0.1, 80, false}};
   EXPECT_TRUE(writer->add_segment(segment).ok());
   for (std::uint32_t k = 0; k < 10; ++k) {
     const AlongRange along{20.0 * k + 1.0 / 3, 20.0 * k + 25 + 1.0 / 7};
@@ -106,7 +111,11 @@ TEST_F(ServedMapTest, TheServerAndTheFileAnswerTheSame) {
   ASSERT_TRUE(segment.ok()) << segment.error().line();
   EXPECT_EQ(segment->vertices, file->segment(version_, "s1")->vertices);
   EXPECT_EQ(segment->length_m, 200.2);
-  EXPECT_THAT(segment->successors, ElementsAre("s2"));
+  EXPECT_THAT(segment->successors,
+              ElementsAre(Successor{"s2", "town"}, Successor{"s2", "village"}));
+  EXPECT_EQ(segment->successors, file->segment(version_, "s1")->successors);
+  EXPECT_EQ(segment->passes, file->segment(version_, "s1")->passes);
+  EXPECT_EQ(segment->position_error, file->segment(version_, "s1")->position_error);
   EXPECT_EQ(*served->layer_bytes(version_, "s1", "tracklets"),
             *file->layer_bytes(version_, "s1", "tracklets"));
   EXPECT_TRUE(served->tiles(version_, "s1", "walls", {0, 100})->empty());
@@ -135,7 +144,7 @@ TEST_F(ServedMapTest, EveryPairOfTilesIsFetchedAlike) {
       EXPECT_EQ(source->counters().tiles_fetched, before.tiles_fetched + expected.size());
     }
   }
-  EXPECT_EQ(source->counters().requests, 1U + 54U);  // the segment's document, 54 ranges
+  EXPECT_EQ(source->counters().requests, 2U + 54U);  // manifest, segment, 54 ranges
 }
 
 TEST_F(ServedMapTest, TheCacheServesWhenTheServerHasGone) {

@@ -22,7 +22,7 @@ class TransportTest : public ::testing::Test {
   HttpAnswer get(const std::string& path, std::uint64_t limit_bytes = kPlenty) {
     body_.clear();
     return transport_->get(
-        server_.url() + path, limit_bytes,
+        server_.url() + path, limit_bytes, caches_,
         [this](ByteView piece) {
           body_ += as_text(piece);
           return ok_status();
@@ -49,6 +49,7 @@ class TransportTest : public ::testing::Test {
       {"Content-Type", "application/problem+json"}};
   ScriptedAnswer answer_;
   std::string body_;
+  Caches caches_ = Caches::allowed;
   Stopped stopped_;
   ScriptedServer server_{[this](const std::string& target) -> ScriptedAnswer {
     if (target == "/target") return {.body = "the target"};
@@ -66,6 +67,17 @@ TEST_F(TransportTest, BringsTheBody) {
   EXPECT_EQ(body_, answer_.body);
   EXPECT_EQ(answer.body_bytes, 300000U);
   EXPECT_THAT(server_.user_agent(), StartsWith("milepost/"));
+}
+
+TEST_F(TransportTest, AsksPastCachesWhereItIsTold) {
+  EXPECT_TRUE(get("/target").status.ok());
+  EXPECT_EQ(server_.cache_control(), "");
+  caches_ = Caches::bypassed;
+  EXPECT_TRUE(get("/target").status.ok());
+  EXPECT_EQ(server_.cache_control(), "no-cache");
+  caches_ = Caches::allowed;
+  EXPECT_TRUE(get("/target").status.ok());
+  EXPECT_EQ(server_.cache_control(), "");
 }
 
 TEST_F(TransportTest, KeepsTheConnectionOpen) {
@@ -97,8 +109,8 @@ TEST_F(TransportTest, FollowsNoRedirectToNowhere) {
 }
 
 TEST_F(TransportTest, AsksNoFile) {
-  const HttpAnswer answer =
-      transport_->get("file:///etc/hostname", kPlenty, [](ByteView) { return ok_status(); }, {});
+  const HttpAnswer answer = transport_->get("file:///etc/hostname", kPlenty, Caches::allowed,
+                                            [](ByteView) { return ok_status(); }, {});
   EXPECT_EQ(error_of(answer).code, ErrorCode::invalid_input);
   EXPECT_THAT(error_of(answer).what, HasSubstr("Protocol"));
 }
@@ -217,7 +229,7 @@ TEST_F(TransportTest, ABodyBeyondTheLimitIsRefused) {
 TEST_F(TransportTest, TheSinkEndsTheRequest) {
   answer_.body = "abc";
   const HttpAnswer answer =
-      transport_->get(server_.url(), kPlenty,
+      transport_->get(server_.url(), kPlenty, Caches::allowed,
                       [](ByteView) -> Status {
                         return Error{ErrorCode::corrupt, "here", "enough", ""};
                       },
@@ -275,7 +287,7 @@ TEST_F(TransportTest, TellsTheRetryAfter) {
 TEST_F(TransportTest, TakesTheProxyFromTheEnvironment) {
   answer_.body = "through the proxy";
   setenv("http_proxy", server_.url().c_str(), 1);
-  const HttpAnswer answer = transport_->get("http://milepost.invalid/x", kPlenty,
+  const HttpAnswer answer = transport_->get("http://milepost.invalid/x", kPlenty, Caches::allowed,
                                             [](ByteView) { return ok_status(); }, {});
   unsetenv("http_proxy");
   EXPECT_TRUE(answer.status.ok());

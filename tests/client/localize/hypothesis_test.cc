@@ -22,7 +22,9 @@ RouteLine northwards() {
 // Stays at its initial position.
 class Standing : public SegmentTracker {
  public:
-  explicit Standing(double along_m) : along_m_(along_m) {}
+  Standing(std::shared_ptr<const SegmentLayer> layer, double along_m)
+      : layer_(std::move(layer)), along_m_(along_m) {}
+  const std::shared_ptr<const SegmentLayer>& layer() const override { return layer_; }
   TrackedPose pose_at(double) const override { return pose(); }
   AlongRange needed(double) const override { return {along_m_, along_m_}; }
   TrackingResult track(SharedFrame&) override { return {}; }
@@ -32,6 +34,7 @@ class Standing : public SegmentTracker {
   }
 
  private:
+  std::shared_ptr<const SegmentLayer> layer_;
   double along_m_;
 };
 
@@ -39,8 +42,7 @@ class Hypotheses : public ::testing::Test {
  protected:
   Hypothesis hypothesis(double along_m, int matches, double log_bayes_factor,
                         double odds = 0) const {
-    Hypothesis hypothesis{segment_,
-                          std::make_unique<Standing>(along_m),
+    Hypothesis hypothesis{std::make_unique<Standing>(layer_, along_m),
                           LogOdds(LogOddsSettings()),
                           GnssLikelihood(GnssLikelihoodSettings()),
                           10,
@@ -51,8 +53,8 @@ class Hypotheses : public ::testing::Test {
     return hypothesis;
   }
 
-  static RelocalizationCandidate candidate(double along_m, int matches) {
-    return {std::make_unique<Standing>(along_m), matches, 5};
+  RelocalizationCandidate candidate(double along_m, int matches) const {
+    return {std::make_unique<Standing>(layer_, along_m), matches, 5};
   }
 
   static double along_m(const Hypothesis& hypothesis) { return hypothesis.tracker->pose().along_m; }
@@ -64,8 +66,7 @@ class Hypotheses : public ::testing::Test {
     return all;
   }
 
-  std::shared_ptr<OpenSegment> segment_ = std::make_shared<OpenSegment>(
-      OpenSegment{testing::layer_of({{}, "s"}, northwards(), {}, {}), nullptr});
+  std::shared_ptr<const SegmentLayer> layer_ = testing::layer_of({{}, "s"}, northwards(), {}, {});
 };
 
 TEST_F(Hypotheses, OfEqualOnesThePoseWithMostInliersStays) {

@@ -79,23 +79,30 @@ LandmarkRoad::LandmarkRoad()
   }
 }
 
-SegmentDescription LandmarkRoad::description() const {
-  return {"road", line_.length_m(), line_.vertices(), {}};
+RouteLine LandmarkRoad::line_of(const AlongRange& part) const {
+  const auto first = line_.vertices().begin() + std::lround(part.from_m);
+  const auto last = line_.vertices().begin() + std::lround(part.to_m);
+  return *RouteLine::from_vertices({first, last + 1});
 }
 
-std::vector<LandmarkTile> LandmarkRoad::tiles() const {
+std::vector<LandmarkTile> LandmarkRoad::tiles(const std::string& segment,
+                                              const AlongRange& part) const {
+  const RouteLine line = line_of(part);
   std::map<std::uint32_t, LandmarkTile> tiles;
   for (const Thing& thing : things_) {
-    const AlongRange along = {std::max(0.0, thing.along_m - kMappedFromM),
-                              thing.along_m - kMappedToM};
+    const AlongRange seen = {std::max(0.0, thing.along_m - kMappedFromM),
+                             thing.along_m - kMappedToM};
+    if (seen.to_m < part.from_m || seen.from_m > part.to_m) continue;
+    const AlongRange along = {std::max(seen.from_m, part.from_m) - part.from_m,
+                              seen.to_m - part.from_m};
     const auto index = static_cast<std::uint32_t>(along.from_m / kTileM);
     LandmarkTile& tile = tiles[index];
-    tile.segment = "road";
+    tile.segment = segment;
     tile.index = index;
     tile.origin_m = index * kTileM;
     Landmark landmark;
     landmark.descriptor = projection_.compact(thing.descriptor);
-    landmark.position = LocalFrame(line_.point_at(tile.origin_m)).enu_from_geo(thing.position);
+    landmark.position = LocalFrame(line.point_at(tile.origin_m)).enu_from_geo(thing.position);
     landmark.depth_sigma_m = 0.05F;
     landmark.size_m = static_cast<float>(thing.size_m);
     landmark.size_sigma = 0.05F;
@@ -151,15 +158,45 @@ LocalizerSettings settings_of_a_short_reach() {
   return settings;
 }
 
-std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road) {
+namespace {
+
+std::shared_ptr<MemorySource> empty_map(const LandmarkRoad& road) {
   const nlohmann::json parameters = {
       {"items", "landmarks"}, {"focal_px", {700, 700}}, {"codebook", road.projection().to_json()}};
-  auto map = std::make_shared<MemorySource>(kVersion, "tracklets", parameters);
+  return std::make_shared<MemorySource>(kVersion, "tracklets", parameters);
+}
+
+void add_segment(MemorySource& map, const LandmarkRoad& road, const std::string& id,
+                 const AlongRange& part, const std::vector<Successor>& successors) {
   std::vector<MemorySource::Tile> tiles;
-  for (const LandmarkTile& tile : road.tiles()) {
+  for (const LandmarkTile& tile : road.tiles(id, part))
     tiles.push_back({tile.along(), encode_landmarks(tile)});
+  const RouteLine line = road.line_of(part);
+  map.add({id, line.length_m(), line.vertices(), successors}, std::move(tiles));
+}
+
+}  // namespace
+
+std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road) {
+  auto map = empty_map(road);
+  add_segment(*map, road, "road", {0, LandmarkRoad::kLengthM}, {});
+  return map;
+}
+
+std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road, const std::vector<double>& cuts_m) {
+  constexpr double kOverlapM = 5;
+  auto map = empty_map(road);
+  double from_m = 0;
+  for (std::size_t i = 0; i <= cuts_m.size(); ++i) {
+    const std::string id = "road-" + std::to_string(std::lround(from_m));
+    if (i == cuts_m.size()) {
+      add_segment(*map, road, id, {from_m, LandmarkRoad::kLengthM}, {});
+      break;
+    }
+    const std::string next = "road-" + std::to_string(std::lround(cuts_m[i]));
+    add_segment(*map, road, id, {from_m, cuts_m[i] + kOverlapM}, {{next, kVersion.map}});
+    from_m = cuts_m[i];
   }
-  map->add(road.description(), std::move(tiles));
   return map;
 }
 

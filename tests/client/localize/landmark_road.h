@@ -38,8 +38,10 @@ class LandmarkRoad {
 
   const RouteLine& line() const { return line_; }
   const PcaProjection& projection() const { return projection_; }
-  SegmentDescription description() const;
-  std::vector<LandmarkTile> tiles() const;
+  // Of a segment, which is a part of the road between whole metres.
+  RouteLine line_of(const AlongRange& part) const;
+  // The landmarks that are seen from it, also beyond its end.
+  std::vector<LandmarkTile> tiles(const std::string& segment, const AlongRange& part) const;
   Camera query_camera() const;
 
   // Of the direction of travel, clockwise from north.
@@ -67,8 +69,10 @@ const LandmarkRoad& shared_road();
 // Settings that hold little map data and retry soon after failures.
 LocalizerSettings settings_of_a_short_reach();
 
-// The map of the road.
+// The map of the road as one segment, "road".
 std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road);
+// As segments "road-0", "road-CUT", ..., each of which overlaps the next by 5 m.
+std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road, const std::vector<double>& cuts_m);
 
 // Waits until the localizer's map wants are settled.
 void wait_for_tiles(Localizer& localizer, double timestamp_s);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
 #include <thread>
 
 #include "client/localize/localizer.h"
@@ -280,6 +281,57 @@ TEST_F(TrackingByLandmarks, DrivesOnWhileTheSourceFails) {
   map_->be_unavailable(false);
   ASSERT_TRUE(waits_until_nothing_is_missing());
   expect_tracked_between(along_m, along_m + 10);
+}
+
+// The road cut into segments, one of which is shorter than a frame's step and its overlap.
+class ThroughJunctions : public TrackingByLandmarks {
+ protected:
+  void SetUp() override {
+    map_ = testing::map_of(road(), kCutsM);
+    localizer_ = Localizer(map_, road().query_camera(), settings());
+  }
+
+  // On the whole road.
+  double way_m(const Fix& fix) const { return std::stod(fix.segment.substr(5)) + *fix.along_m; }
+
+  inline static const std::vector<double> kCutsM = {60, 120, 126, 260, 400};
+};
+
+TEST_F(ThroughJunctions, ThePoseGoesOnWithoutAReceiver) {
+  begin_at(20);
+  for (double along_m = 21; along_m < 450; along_m += kFrameM) {
+    const Fix fix = this->fix(along_m);
+    if (along_m < 26) continue;  // until it is claimed
+    ASSERT_EQ(fix.status, FixStatus::tracking) << "at " << along_m;
+    EXPECT_NEAR(way_m(fix), along_m, 0.08);
+    EXPECT_NEAR(*fix.lateral_m, truth_.lateral_m, 0.06) << "at " << along_m;
+    EXPECT_LT(fix.sigma_m, 0.1) << "at " << along_m;
+    EXPECT_GE(fix.matches, 20) << "at " << along_m;
+  }
+}
+
+TEST_F(ThroughJunctions, SegmentsFollowEachOtherAndNoneComesBack) {
+  begin_at(20);
+  std::vector<std::string> driven;
+  for (double along_m = 21; along_m < 450; along_m += kFrameM) {
+    const Fix fix = this->fix(along_m);
+    if (driven.empty() || driven.back() != fix.segment) driven.push_back(fix.segment);
+  }
+  EXPECT_EQ(driven, (std::vector<std::string>{"road-0", "road-60", "road-120", "road-126",
+                                              "road-260", "road-400"}));
+}
+
+TEST_F(ThroughJunctions, ABlindVehicleIsPredictedOntoTheNextSegment) {
+  begin_at(40);
+  for (double along_m = 41; along_m < 62; along_m += kFrameM) fix(along_m);
+  for (double along_m = 62; along_m < 69; along_m += kFrameM) {
+    const Fix blind = fix(along_m, true);
+    EXPECT_EQ(blind.status, FixStatus::predicted) << "at " << along_m;
+    EXPECT_NEAR(way_m(blind), along_m, 0.6) << "at " << along_m;
+  }
+  const Fix seeing = fix(69);
+  EXPECT_EQ(seeing.status, FixStatus::tracking);
+  EXPECT_EQ(seeing.segment, "road-60");
 }
 
 }  // namespace

@@ -84,15 +84,17 @@ TEST(AlongByScale, IsExactOnAStraightLine) {
     const Eigen::Vector3d seen(x_m, -1, 22 + x_m);
     LocalLandmark landmark =
         testing::landmark_at(pose.enu_m + camera_from_enu(pose).transpose() * seen, 0.3);
-    landmark.along = {40, 56};
+    landmark.mapped_at_m = 48;
+    const EnuPoint middle = window.enu_from_geo(line->point_at(landmark.mapped_at_m));
+    landmark.mapped_ahead_m = (landmark.enu_m.x() - middle.east_m) * std::sin(pose.heading_rad) +
+                              (landmark.enu_m.y() - middle.north_m) * std::cos(pose.heading_rad);
     landmark.size_sigma = 0.03;
     landmark.depth_sigma_m = 0.5;
     landmarks.push_back(landmark);
     features.push_back(testing::seen_feature(landmark, pose));
     matches.push_back({matches.size(), matches.size()});
   }
-  const auto estimates =
-      along_by_scale(matches, features, landmarks, kSceneCamera, *line, window, 0.04);
+  const auto estimates = along_by_scale(matches, features, landmarks, kSceneCamera, 0.04);
   ASSERT_EQ(estimates.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     const double depth_m = point_in_camera(pose, landmarks[i].enu_m).z();

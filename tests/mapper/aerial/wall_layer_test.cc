@@ -29,9 +29,14 @@ void write_old_map(const std::filesystem::path& file) {
   for (const char* const layer : {"tracklets", "trees", "walls"}) {
     ASSERT_TRUE(writer->add_layer(layer, R"({"items":"tracklets"})").ok());
   }
-  ASSERT_TRUE(
-      writer->add_segment({"monday", 12, {{49, 8.4, 110, 0}, {49.0001, 8.4, 110, 12}}, {"monday"}})
-          .ok());
+  ASSERT_TRUE(writer
+                  ->add_segment({"monday",
+                                 12,
+                                 {{49, 8.4, 110, 0}, {49.0001, 8.4, 110, 12}},
+                                 {{"monday"}},
+                                 {{"sunday", 0, 12}},
+                                 {0.1, 50, true}})
+                  .ok());
   ASSERT_TRUE(writer->add_tile("monday", "tracklets", 0, {0, 12}, 3, bytes_of("a tile")).ok());
   ASSERT_TRUE(writer->add_cell("trees", 2003217681, 2, bytes_of("a cell")).ok());
   ASSERT_TRUE(writer->add_cell("walls", 2003217690, 2, bytes_of("old walls")).ok());
@@ -76,7 +81,9 @@ TEST(WallLayer, KeepsAllElse) {
   EXPECT_EQ(map->layers().at("walls"), R"({"items":"walls"})");
   EXPECT_EQ(map->segment_ids(), std::vector<std::string>{"monday"});
   EXPECT_EQ(map->segment("monday")->vertices.size(), 2U);
-  EXPECT_EQ(map->segment("monday")->successors, std::vector<std::string>{"monday"});
+  EXPECT_EQ(map->segment("monday")->successors, std::vector<Successor>{{"monday"}});
+  EXPECT_EQ(map->segment("monday")->passes, (std::vector<StoredPass>{{"sunday", 0, 12}}));
+  EXPECT_EQ(map->segment("monday")->position_error, (PositionError{0.1, 50, true}));
   EXPECT_EQ(*map->tile("monday", "tracklets", 0), bytes_of("a tile"));
   EXPECT_EQ(*map->cell("trees", 2003217681), bytes_of("a cell"));
   EXPECT_EQ(walls_in(*map), kWalls);

@@ -20,23 +20,6 @@ TEST(Digest, KnowsItsForm) {
 }
 
 // From Python: hashlib.blake2b(struct.pack("<Q2sQd", 2, b"ab", 7, -0.5), digest_size=16)
-TEST(FieldDigest, PutsLengthsBeforeFieldsAndNumbersInLittleEndian) {
-  FieldDigest digest;
-  digest.add("ab");
-  digest.add(std::uint64_t{7});
-  digest.add(-0.5);
-  EXPECT_EQ(digest.finish(), "60880730a216ff888c86858c280b4974");
-}
-
-TEST(FieldDigest, TellsWhereAFieldEnds) {
-  FieldDigest one;
-  one.add("ab");
-  one.add("c");
-  FieldDigest other;
-  other.add("a");
-  other.add("bc");
-  EXPECT_NE(one.finish(), other.finish());
-}
 
 }  // namespace
 }  // namespace milepost

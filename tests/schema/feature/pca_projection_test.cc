@@ -168,6 +168,7 @@ TEST(PcaProjection, SurvivesTheMap) {
     ASSERT_TRUE(read.ok()) << read.error().line();
     EXPECT_EQ(*read, projection);
     EXPECT_EQ(read->quantization_step(), step);
+    EXPECT_EQ(read->version(), "trained");
     EXPECT_EQ(read->to_json(), projection.to_json());
   }
 }
@@ -186,10 +187,13 @@ TEST(PcaProjection, ReadsWhatTheFormatSays) {
   axes[2 * 32 + 7] = static_cast<unsigned char>(-127);
   std::vector<unsigned char> mean(128);
   mean[2] = 51;  // 0.2
-  const nlohmann::json object = {
-      {"step", 0.05}, {"mean", base64_of(mean)}, {"axes", base64_of(axes)}};
+  const nlohmann::json object = {{"version", "milepost-1"},
+                                 {"step", 0.05},
+                                 {"mean", base64_of(mean)},
+                                 {"axes", base64_of(axes)}};
   const auto projection = PcaProjection::from_json(object);
   ASSERT_TRUE(projection.ok()) << projection.error().line();
+  EXPECT_EQ(projection->version(), "milepost-1");
   Descriptor descriptor{};
   descriptor[2] = 128;
   descriptor[3] = 72;  // root of 0.64 is 0.8
@@ -220,7 +224,9 @@ TEST(PcaProjection, IsRefusedWhereItIsNone) {
   ASSERT_TRUE(PcaProjection::from_json(sound()).ok());
   expect_refused("{", "it is not a JSON object");
   expect_refused({1, 2}, "it is not a JSON object");
-  for (const char* key : {"step", "mean", "axes"}) {
+  expect_refused_with("version", "", "'version' is missing or not an id");
+  expect_refused_with("version", "../x", "'version' is missing or not an id");
+  for (const char* key : {"version", "step", "mean", "axes"}) {
     nlohmann::json object = sound();
     object.erase(key);
     expect_refused(object, "'" + std::string(key) + "' is missing");

@@ -31,7 +31,9 @@ void add_example(MapWriter& writer) {
       writer.add_segment({"east",
                           110.25,
                           {{49, 8.25, 110, 0}, {49.5, 8.75, 111.5, 60}, {49.25, 8.5, 112, 110.25}},
-                          {"west", "of-another-map"}}));
+                          {{"west"}, {"north", "of-another-map"}},
+                          {{"monday", 20, 130.25}, {"tuesday", 0, 110}},
+                          {0.15, 120, true}}));
   for (std::uint32_t i = 0; i < 10; ++i) {
     const double from_m = 10.0 * i;
     const Bytes bytes = tile_bytes(3000 + 1000 * i, i);

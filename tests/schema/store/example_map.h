@@ -20,7 +20,8 @@ inline const std::vector<StoredVertex> kShortLine = {{49, 8, 100, 0}, {49.1, 8, 
 // Reproducible incompressible bytes, like those of an encoded tile.
 Bytes tile_bytes(std::size_t size, std::uint32_t seed);
 
-// Two segments, "east" and "west", and two layers, "tracklets" and "walls". On "east" tile i of
+// Two segments, "east" and "west" (passes, a successor in another map and a position error on
+// "east" only), and two layers, "tracklets" and "walls". On "east" tile i of
 // "tracklets" (0 to 9) reaches from 10 i to 10 i + 25 m; tile 3 reaches further, to 80 m. "walls"
 // also has three cells: at kCells[0], right of it, and one row above.
 void add_example(MapWriter& writer);

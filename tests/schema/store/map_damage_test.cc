@@ -76,7 +76,8 @@ TEST_F(MapDamageTest, AnotherDatabaseIsNoMap) {
 
 TEST_F(MapDamageTest, AnotherFormatVersionIsNamed) {
   change("PRAGMA user_version = 1");
-  EXPECT_THAT(open_error(), HasSubstr("town.map: this is a map of format version 1, not 2"));
+  EXPECT_THAT(open_error(), HasSubstr("town.map: this is a map of format version 1, not 3; build "
+                                      "the map anew"));
 }
 
 TEST_F(MapDamageTest, AMissingTableIsNamed) {
@@ -86,7 +87,7 @@ TEST_F(MapDamageTest, AMissingTableIsNamed) {
 
 TEST_F(MapDamageTest, AMissingKeyIsNamed) {
   for (const std::string key :
-       {"build", "feature", "west_deg", "south_deg", "east_deg", "north_deg"}) {
+       {"build", "manifest", "feature", "west_deg", "south_deg", "east_deg", "north_deg"}) {
     testing::write_example(file_);
     change("DELETE FROM meta WHERE key = '" + key + "'");
     EXPECT_THAT(open_error(), HasSubstr("town.map: the map lacks its " + key));
@@ -137,10 +138,10 @@ TEST_F(MapDamageTest, SegmentsAreWhatAWriterTakes) {
               HasSubstr("town.map, segment east, vertex 1: along_m does not ascend"));
   EXPECT_THAT(segment_error("DELETE FROM vertices"),
               HasSubstr("town.map, segment east: a line needs two or more vertices"));
-  EXPECT_THAT(segment_error("UPDATE segments SET length_m = 0"),
-              HasSubstr("town.map, segment east: the length is not above 0"));
+  EXPECT_THAT(segment_error("UPDATE passes SET from_m = 999"),
+              HasSubstr("town.map, segment east: a pass's range is not ascending"));
   EXPECT_THAT(segment_error("UPDATE successors SET successor = CAST(x'73ff' AS TEXT)"),
-              HasSubstr("town.map, segment east: a successor's name is malformed"));
+              HasSubstr("town.map, segment east: a successor is not a segment id"));
 }
 
 TEST_F(MapDamageTest, ATruncatedFileIsRefused) {
@@ -185,7 +186,7 @@ TEST_F(MapDamageTest, ADamagedTileIsCaughtByVerify) {
 TEST_F(MapDamageTest, ADamagedIndexEntryIsNamed) {
   change("PRAGMA ignore_check_constraints = ON; UPDATE tiles SET digest = 'x' WHERE number = 2");
   const auto reader = MapReader::open(file_);
-  const auto entries = reader->tiles_in("east", "tracklets", {20, 21});
+  const auto entries = reader->tiles_in("east", "tracklets", {50, 51});
   ASSERT_FALSE(entries.ok());
   EXPECT_EQ(entries.error().code, ErrorCode::corrupt);
   EXPECT_THAT(
@@ -219,13 +220,23 @@ TEST_P(MapChange, IsCaughtByVerify) {
 }
 
 const char* const kOtherBuild = "town.map: the content has the build ";
+const char* const kOtherManifest = "town.map: the manifest is not that of build ";
+const char* const kOtherSummary =
+    "town.map: its layers, parameters, bounds or lengths are not those of build ";
 
 const std::vector<Change> kChanges = {
-    {"Feature", "UPDATE meta SET value = '{}' WHERE key = 'feature'", kOtherBuild},
+    {"Feature", "UPDATE meta SET value = '{}' WHERE key = 'feature'", kOtherSummary},
     {"Build", "UPDATE meta SET value = '0123456789abcdef0123456789abcdef' WHERE key = 'build'",
-     kOtherBuild},
-    {"Layer", "UPDATE layers SET parameters = '[]' WHERE name = 'walls'", kOtherBuild},
-    {"Length", "UPDATE segments SET length_m = 12 WHERE id = 'west'", kOtherBuild},
+     kOtherManifest},
+    {"Manifest", "UPDATE meta SET value = replace(value, '3', '4') WHERE key = 'manifest'",
+     kOtherManifest},
+    {"Layer", "UPDATE layers SET parameters = '{\"a\": 1}' WHERE name = 'walls'", kOtherSummary},
+    {"LayerWithoutParameters", "UPDATE layers SET parameters = '[]' WHERE name = 'walls'",
+     "town.map, layer walls: the parameters are not a JSON object"},
+    {"Length", "UPDATE segments SET length_m = 12 WHERE id = 'west'", kOtherSummary},
+    {"MissingSegment", "DELETE FROM segments WHERE id = 'west'", kOtherSummary},
+    {"OtherSegment", "UPDATE segments SET id = 'wes' WHERE id = 'west'",
+     "town.map: its segments are not those of build "},
     {"Vertex", "UPDATE vertices SET altitude_m = 1 WHERE position = 1", kOtherBuild},
     {"Successor", "UPDATE successors SET successor = 'east' WHERE position = 0", kOtherBuild},
     {"MissingSuccessor", "DELETE FROM successors WHERE position = 1", kOtherBuild},
@@ -240,22 +251,61 @@ const std::vector<Change> kChanges = {
      "layer walls, cell 2003077700: the tile's bytes do not match its digest"},
     {"MissingCellBytes", "DELETE FROM frames WHERE id = 14",
      "layer walls, cell 2003149700: the tile's bytes do not match its digest"},
-    {"Bounds", "UPDATE meta SET value = 1.0 WHERE key = 'west_deg'",
-     "the bounds are not those of the vertices"},
+    {"Bounds", "UPDATE meta SET value = 1.0 WHERE key = 'west_deg'", kOtherSummary},
     {"MissingBytes", "DELETE FROM frames WHERE id = 5",
      "tile 5: the tile's bytes do not match its digest"},
     {"TileContent", "UPDATE frames SET frame = x'00' WHERE id = 5",
      "tile 5: the tile's bytes do not match its digest"},
     {"Bytes", "UPDATE tiles SET bytes = 1 WHERE number = 5",
      "tile 5: the tile's bytes do not match its digest"},
-    {"Span", "UPDATE spans SET longest_m = 49 WHERE segment = 'east' AND layer = 'tracklets'",
-     "segment east, layer tracklets: a tile is longer than the longest one"},
-    {"MissingSpan", "DELETE FROM spans WHERE layer = 'walls'",
-     "segment east, layer walls: a tile is longer than the longest one"},
+    {"Pass", "UPDATE passes SET to_m = 131 WHERE position = 0", kOtherBuild},
+    {"MissingPass", "DELETE FROM passes WHERE position = 1", kOtherBuild},
+    {"NeighbourMap", "UPDATE successors SET map = '' WHERE position = 1", kOtherBuild},
+    {"PositionSigma", "UPDATE segments SET position_sigma_m = 0.01 WHERE id = 'east'", kOtherBuild},
+    {"PositionCorrelation", "UPDATE segments SET position_correlation_m = NULL", kOtherBuild},
+    {"Assumed", "UPDATE segments SET assumed = 0", kOtherBuild},
 };
 
 INSTANTIATE_TEST_SUITE_P(Each, MapChange, ::testing::ValuesIn(kChanges),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// What the client uses is checked when it is read, also without verify.
+TEST_F(MapDamageTest, AChangedSegmentIsCaughtByReadingIt) {
+  for (const std::string sql :
+       {"UPDATE vertices SET latitude_deg = 49.0001 WHERE segment = 'east' AND position = 0",
+        "UPDATE successors SET successor = 'east'", "UPDATE passes SET drive = 'sunday'",
+        "UPDATE segments SET position_sigma_m = 0.01",
+        "UPDATE tiles SET to_m = 26 WHERE number = 0 AND segment = 'east'",
+        "UPDATE tiles SET digest = '0123456789abcdef0123456789abcdef' WHERE number = 4"}) {
+    SCOPED_TRACE(sql);
+    testing::write_example(file_);
+    change(sql);
+    const auto reader = MapReader::open(file_);
+    ASSERT_TRUE(reader.ok()) << reader.error().line();
+    const auto expect_caught = [](const auto& read) {
+      ASSERT_FALSE(read.ok());
+      EXPECT_EQ(read.error().code, ErrorCode::corrupt);
+      EXPECT_THAT(read.error().line(), HasSubstr("town.map, segment east: its line, links, passes "
+                                                 "or tile index are not those of build "));
+    };
+    expect_caught(reader->segment("east"));
+    expect_caught(reader->segment_document("east"));
+    expect_caught(reader->tile_index("east", "tracklets"));
+    expect_caught(reader->tiles_in("east", "tracklets", {0, 20}));
+    expect_caught(reader->tile("east", "tracklets", 4));
+  }
+}
+
+TEST_F(MapDamageTest, AChangedIndexOfCellsIsCaughtByReadingIt) {
+  change("UPDATE cells SET number = number + 1 WHERE number % 2 = 1");
+  const auto reader = MapReader::open(file_);
+  const auto index = reader->cell_index("walls");
+  ASSERT_FALSE(index.ok());
+  EXPECT_EQ(index.error().code, ErrorCode::corrupt);
+  EXPECT_THAT(index.error().line(),
+              HasSubstr("town.map: the index of its cells is not that of build "));
+  EXPECT_FALSE(reader->cell("walls", testing::kCells[0]).ok());
+}
 
 // Whatever byte is flipped: no crash, and if the map's content differs from what was written,
 // verify reports it.

@@ -60,7 +60,13 @@ TEST_F(MapReaderTest, GivesBackASegment) {
   EXPECT_EQ(segment->vertices[1].longitude_deg, 8.75);
   EXPECT_EQ(segment->vertices[1].altitude_m, 111.5);
   EXPECT_EQ(segment->vertices[1].along_m, 60);
-  EXPECT_THAT(segment->successors, ElementsAre("west", "of-another-map"));
+  EXPECT_THAT(segment->successors,
+              ElementsAre(Successor{"west"}, Successor{"north", "of-another-map"}));
+  EXPECT_THAT(segment->passes,
+              ElementsAre(StoredPass{"monday", 20, 130.25}, StoredPass{"tuesday", 0, 110}));
+  EXPECT_EQ(segment->position_error, (PositionError{0.15, 120, true}));
+  EXPECT_EQ(reader_->segment("west")->position_error, PositionError());
+  EXPECT_THAT(reader_->segment("west")->passes, IsEmpty());
   EXPECT_THAT(reader_->segment("west")->successors, IsEmpty());
 }
 

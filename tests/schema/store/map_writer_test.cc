@@ -60,48 +60,45 @@ TEST_F(MapWriterTest, TheSameCallsGiveTheSameBytes) {
   EXPECT_EQ(content_of(other), content_of(file_));
 }
 
-// The fields of FORMAT.md 2.7, assembled by hand.
+// `"bytes":N,"digest":"D"` of a text.
+std::string listed(const std::string& text) {
+  return "\"bytes\":" + std::to_string(text.size()) + ",\"digest\":\"" + digest_of(as_bytes(text)) +
+         "\"";
+}
+
+// The documents of FORMAT.md 7, assembled by hand.
 TEST_F(MapWriterTest, TheBuildIsTheDigestThatFormatMdTells) {
   MapWriter map = writer();
   ASSERT_TRUE(map.set_feature_json("{}").ok());
-  ASSERT_TRUE(map.add_layer("l", "{\"a\": 1}").ok());
-  ASSERT_TRUE(map.add_segment({"s", 20, {{49, 8, 100, 0.5}, {50, 9, 101, 20}}, {"t"}}).ok());
+  ASSERT_TRUE(map.add_layer("l", "{\"a\": 1.0}").ok());
+  ASSERT_TRUE(
+      map.add_segment({"s", 20, {{49, 8, 100, 0.5}, {50, 9, 101, 20}}, {{"t"}}, {{"d", 0, 20}}})
+          .ok());
   ASSERT_TRUE(map.add_tile("s", "l", 6, {1, 2.5}, 3, as_bytes("abc")).ok());
-  ASSERT_TRUE(map.add_cell("l", 77, 4, as_bytes("walls")).ok());
-  FieldDigest digest;
-  digest.add(std::uint64_t{2});
-  digest.add("{}");
-  digest.add(std::uint64_t{1});
-  digest.add("l");
-  digest.add("{\"a\": 1}");
-  digest.add(std::uint64_t{1});
-  digest.add("s");
-  digest.add(20.0);
-  digest.add(std::uint64_t{2});
-  digest.add("s");
-  digest.add(std::uint64_t{0});
-  for (const double number : {49.0, 8.0, 100.0, 0.5}) digest.add(number);
-  digest.add("s");
-  digest.add(std::uint64_t{1});
-  for (const double number : {50.0, 9.0, 101.0, 20.0}) digest.add(number);
-  digest.add(std::uint64_t{1});
-  digest.add("s");
-  digest.add(std::uint64_t{0});
-  digest.add("t");
-  digest.add(std::uint64_t{1});
-  digest.add("s");
-  digest.add("l");
-  digest.add(std::uint64_t{6});
-  digest.add(1.0);
-  digest.add(2.5);
-  digest.add(std::uint64_t{3});
-  digest.add(std::uint64_t{3});
-  digest.add(digest_of(as_bytes("abc")));
-  digest.add(std::uint64_t{1});
-  digest.add("l");
-  for (const std::uint64_t number : {77, 4, 5}) digest.add(number);
-  digest.add(digest_of(as_bytes("walls")));
-  EXPECT_EQ(*map.finish(), digest.finish());
+  ASSERT_TRUE(map.add_cell("l", 0, 4, as_bytes("walls")).ok());
+  const std::string of_map =
+      R"({"bounds":{"east_deg":9,"north_deg":50,"south_deg":-90,"west_deg":-180},"feature":{},)"
+      R"("layer_parameters":{"l":{"a":1}},"layers":["l"],"length_m":20,"segment_count":1})";
+  const std::string areas = R"({"cells":{"l":[{"bytes":5,"cell":0,"digest":")" +
+                            digest_of(as_bytes("walls")) +
+                            R"(","east_deg":-179.995,"items":4,"north_deg":-89.995,)"
+                            R"("south_deg":-90,"west_deg":-180}]}})";
+  const std::string segment =
+      R"({"length_m":20,"line":[[49,8,100,0.5],[50,9,101,20]],)"
+      R"("passes":[{"drive":"d","from_m":0,"to_m":20}],"segment":"s",)"
+      R"("successors":[{"segment":"t"}],"tiles":{"l":[{"bytes":3,"digest":")" +
+      digest_of(as_bytes("abc")) + R"(","from_m":1,"index":6,"items":3,"to_m":2.5}]}})";
+  const std::string manifest = "{\"areas\":{" + listed(areas) + "},\"format\":3,\"map\":{" +
+                               listed(of_map) + "},\"segments\":[{" + listed(segment) +
+                               ",\"segment\":\"s\"}]}";
+  const std::string build = *map.finish();
+  const auto reader = MapReader::open(file_);
+  ASSERT_TRUE(reader.ok()) << reader.error().line();
+  EXPECT_EQ(reader->map_document(), of_map);
+  EXPECT_EQ(*reader->areas_document(), areas);
+  EXPECT_EQ(*reader->segment_document("s"), segment);
+  EXPECT_EQ(reader->manifest_document(), manifest);
+  EXPECT_EQ(build, digest_of(as_bytes(manifest)));
 }
 
 TEST_F(MapWriterTest, TheOrderOfTheCallsIsNotInTheBuild) {
@@ -196,8 +193,22 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
   };
   expect_refused(map.add_segment({"a/b", 1, testing::kShortLine, {}}),
                  ": 'a/b' is not a segment id");
-  expect_refused(map.add_segment({"c", 1, testing::kShortLine, {"d", "e/f"}}),
-                 ", segment c: the successor 'e/f' is not a segment id");
+  expect_refused(map.add_segment({"c", 1, testing::kShortLine, {{"d"}, {"e/f"}}}),
+                 ", segment c: a successor is not a segment id (FORMAT.md 2.5)");
+  expect_refused(map.add_segment({"c", 1, testing::kShortLine, {{"d", "e/f"}}}),
+                 ", segment c: a successor's map is not a name (FORMAT.md 2.5)");
+  expect_refused(map.add_segment({"c", 1, testing::kShortLine, {}, {{"e/f", 0, 1}}}),
+                 ", segment c: a pass's drive is not a name (FORMAT.md 2.5)");
+  for (const StoredPass& pass : {StoredPass{"d", -1, 1}, StoredPass{"d", 2, 1},
+                                 StoredPass{"d", nan, 1}, StoredPass{"d", 0, nan}}) {
+    expect_refused(map.add_segment({"c", 1, testing::kShortLine, {}, {pass}}),
+                   ", segment c: a pass's range is not ascending from 0 on (FORMAT.md 2.5)");
+  }
+  for (const PositionError& error :
+       {PositionError{-0.1}, PositionError{nan}, PositionError{0.1, nan}}) {
+    expect_refused(map.add_segment({"c", 1, testing::kShortLine, {}, {}, error}),
+                   ", segment c: the position error is not a distance (FORMAT.md 2.5)");
+  }
   for (const double length_m : {nan, -1.0, 0.0, 1e8 + 1}) {
     expect_refused(map.add_segment({"c", length_m, testing::kShortLine, {}}),
                    ", segment c: the length is not above 0 and at most 100000 km (FORMAT.md 2.5)");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "schema/tile/codec.h"
@@ -35,6 +36,7 @@ struct Table {
   std::vector<std::uint16_t> begin_dm = {15, 20};
   std::vector<std::uint16_t> length_dm = {400, 0};
   std::vector<std::uint8_t> observations = {3, 255};
+  std::optional<std::vector<std::uint8_t>> passes = {};
 };
 
 Bytes bytes_of(const Table& t, const char* identifier = "MPL1") {
@@ -42,7 +44,7 @@ Bytes bytes_of(const Table& t, const char* identifier = "MPL1") {
   const auto root = fbs::CreateLandmarkTileDirect(
       builder, t.segment.c_str(), 12, t.origin_m, t.descriptor_values, &t.descriptors,
       &t.position_low, &t.position_high, &t.depth_sigma, &t.size, &t.size_sigma, &t.begin_dm,
-      &t.length_dm, &t.observations);
+      &t.length_dm, &t.observations, t.passes ? &*t.passes : nullptr);
   return testing::content_of(builder, root, identifier);
 }
 
@@ -78,6 +80,23 @@ TEST(LandmarkTable, TheSoundOneIsTaken) {
   EXPECT_DOUBLE_EQ(second.along.from_m, 243.5);
   EXPECT_DOUBLE_EQ(second.along.to_m, 243.5);
   EXPECT_EQ(second.observations, 255);
+}
+
+TEST(LandmarkTable, WithoutPassesEachWasSeenByOneDrive) {
+  Table table;
+  const auto single = decode_landmarks(compress_frame(bytes_of(table)));
+  ASSERT_TRUE(single.ok()) << single.error().line();
+  EXPECT_EQ(single->landmarks[0].passes, 1);
+  EXPECT_EQ(single->landmarks[1].passes, 1);
+  table.passes = {1, 255};
+  auto fused = decode_landmarks(compress_frame(bytes_of(table)));
+  ASSERT_TRUE(fused.ok()) << fused.error().line();
+  EXPECT_EQ(fused->landmarks[0].passes, 1);
+  EXPECT_EQ(fused->landmarks[1].passes, 255);
+  EXPECT_EQ(decode_landmarks(encode_landmarks(*fused))->landmarks[1].passes, 255);
+  // A map of single drives has the bytes that it had before there were passes.
+  fused->landmarks[1].passes = 1;
+  EXPECT_EQ(encode_landmarks(*fused), encode_landmarks(*single));
 }
 
 // Distributed like real ones: descriptors with decreasing variance, landmarks on both sides of a
@@ -269,6 +288,13 @@ const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
      "tile s/12, landmark 0: the along range is out of range (FORMAT.md 5.7)"},
     {"TwoObservations", [](Table& t) { t.observations[0] = 2; },
      "tile s/12, landmark 0: fewer than 3 observations (FORMAT.md 5.8)"},
+    {"ShortPasses", [](Table& t) { t.passes = {2}; },
+     "tile s/12: passes are not as many as observations (FORMAT.md 5.10)"},
+    {"NoPass",
+     [](Table& t) {
+       t.passes = {2, 0};
+     },
+     "tile s/12, landmark 1: no pass (FORMAT.md 5.10)"},
 });
 
 INSTANTIATE_TEST_SUITE_P(Each, LandmarkViolation, ::testing::ValuesIn(kViolations),

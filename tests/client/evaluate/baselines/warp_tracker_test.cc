@@ -48,7 +48,7 @@ Road straight_road(LayerItems items = LayerItems::frames) {
 class WarpTracking : public ::testing::Test {
  protected:
   WarpTracking() {
-    auto made = method_named("wisurf")->make_relocalizer(*road_.layer, {600, 400, 400, 400}, {});
+    auto made = method_named("wisurf")->make_relocalizer(road_.layer, {600, 400, 400, 400}, {});
     scout_ = std::move(*made);
   }
 
@@ -103,7 +103,7 @@ TEST_F(WarpTracking, NothingIsFoundWhereTheMapHasNoFrames) {
 
 TEST(MakeRelocalizer, RefusesALayerOfOtherItems) {
   const Road road = straight_road(LayerItems::tracklets);
-  const auto made = method_named("wisurf")->make_relocalizer(*road.layer, {600, 400, 400, 400}, {});
+  const auto made = method_named("wisurf")->make_relocalizer(road.layer, {600, 400, 400, 400}, {});
   ASSERT_FALSE(made.ok());
   EXPECT_EQ(made.error().code, ErrorCode::corrupt);
   EXPECT_NE(made.error().line().find("layer 'layer': the method cannot use its tracklets"),

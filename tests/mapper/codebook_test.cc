@@ -1,52 +1,27 @@
-#include "mapper/pipeline/trained_projection.h"
+#include "mapper/codebook/codebook.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-
+#include "mapper/pipeline/codebook_training.h"
+#include "schema/base/file.h"
+#include "tests/mapper/noise_drive.h"
 #include "tests/support/temp_folder.h"
 
 namespace milepost {
 namespace {
 
+using testing::noise_drive;
 using testing::TempFolder;
 
-// A drive of `frames` frames of blurred noise, 2 m apart.
-Drive noise_drive(const std::filesystem::path& folder, const std::string& name, int frames,
-                  int seed) {
-  Drive drive;
-  drive.folder = folder;
-  drive.name = name;
-  drive.images = name;
-  drive.camera = {96, 80, 60, 60, 48, 40};
-  std::filesystem::create_directories(folder / name);
-  const LocalFrame local({49, 8.4, 110});
-  cv::RNG random(static_cast<std::uint64_t>(seed));
-  for (int i = 0; i < frames; ++i) {
-    cv::Mat image(80, 96, CV_8U);
-    random.fill(image, cv::RNG::UNIFORM, 0, 256);
-    cv::GaussianBlur(image, image, {}, 1.5);
-    cv::normalize(image, image, 0, 255, cv::NORM_MINMAX);
-    Frame frame;
-    frame.filename = std::to_string(i) + ".png";
-    frame.timestamp_s = 0.2 * i;
-    frame.position = local.geo_from_enu({0, 2.0 * i, 0});
-    EXPECT_TRUE(cv::imwrite((folder / name / frame.filename).string(), image));
-    drive.frames.push_back(frame);
-  }
+// The drive on another road.
+Drive elsewhere(Drive drive) {
+  for (Frame& frame : drive.frames) frame.position.longitude_deg += 0.01;
   return drive;
 }
 
-std::vector<StretchPlan> plans_of(const std::vector<Drive>& drives) {
-  std::vector<StretchPlan> plans;
-  for (const Drive& drive : drives) plans.push_back(plan_stretch(drive, 0.3).value());
-  return plans;
-}
-
 Result<PcaProjection> codebook_of(const std::vector<Drive>& drives) {
-  return trained_projection(drives, plans_of(drives), {}, 2);
+  return trained_codebook(plan_build(drives, {}, 2)->drives, {}, 16, "trained", 2);
 }
 
 // The frames that the codebook is trained on: those that must exist.
@@ -64,7 +39,7 @@ std::vector<std::size_t> sampled_of(const std::vector<Drive>& drives, const Driv
 TEST(SampledCodebook, TakesFramesFromAllOfEachDrive) {
   const TempFolder folder;
   const std::vector<Drive> drives = {noise_drive(folder.path(), "a", 35, 1),
-                                     noise_drive(folder.path(), "b", 13, 2)};
+                                     elsewhere(noise_drive(folder.path(), "b", 13, 2))};
   const std::vector<std::size_t> of_a = sampled_of(drives, drives[0]);
   const std::vector<std::size_t> of_b = sampled_of(drives, drives[1]);
   EXPECT_EQ(of_a.size() + of_b.size(), 16U);
@@ -79,8 +54,8 @@ TEST(SampledCodebook, TakesFramesFromAllOfEachDrive) {
 
 TEST(SampledCodebook, TakesAllOfFewFrames) {
   const TempFolder folder;
-  const std::vector<Drive> drives = {noise_drive(folder.path(), "a", 3, 1)};
-  EXPECT_EQ(sampled_of(drives, drives[0]).size(), 3U);
+  const std::vector<Drive> drives = {noise_drive(folder.path(), "a", 7, 1)};
+  EXPECT_EQ(sampled_of(drives, drives[0]).size(), 7U);
   const Result<PcaProjection> projection = codebook_of(drives);
   ASSERT_TRUE(projection.ok());
   EXPECT_EQ(projection->quantization_step(), BuildSettings{}.quantization_step);
@@ -89,11 +64,36 @@ TEST(SampledCodebook, TakesAllOfFewFrames) {
 
 TEST(SampledCodebook, DependsOnEveryDrive) {
   const TempFolder folder;
-  const Drive a = noise_drive(folder.path(), "a", 4, 1);
-  const Drive b = noise_drive(folder.path(), "b", 4, 2);
+  const Drive a = noise_drive(folder.path(), "a", 8, 1);
+  const Drive b = elsewhere(noise_drive(folder.path(), "b", 8, 2));
   const PcaProjection both = codebook_of({a, b}).value();
   EXPECT_FALSE(both == codebook_of({a}).value());
   EXPECT_FALSE(both == codebook_of({b}).value());
+}
+
+TEST(ShippedCodebook, HasAVersionAndAxes) {
+  EXPECT_EQ(shipped_codebook().version(), "milepost-1");
+  Descriptor one{};    // a lot of one direction in the middle
+  Descriptor other{};  // and of the opposite one
+  for (const std::size_t cell : {5U, 6U, 9U, 10U}) {
+    one[8 * cell] = 120;
+    other[8 * cell + 4] = 120;
+  }
+  EXPECT_GT(distance_squared(shipped_codebook().compact(one), shipped_codebook().compact(other)),
+            1000);
+}
+
+TEST(CodebookFile, IsReadAsItWasWritten) {
+  const TempFolder folder;
+  const auto file = folder.path() / "codebook.json";
+  ASSERT_TRUE(write_text_file(file, codebook_text(shipped_codebook())).ok());
+  EXPECT_TRUE(read_codebook(file).value() == shipped_codebook());
+  ASSERT_TRUE(write_text_file(file, R"({"version": "x", "step": -1})").ok());
+  const auto damaged = read_codebook(file);
+  ASSERT_FALSE(damaged.ok());
+  EXPECT_THAT(damaged.error().line(), ::testing::HasSubstr("codebook.json"));
+  EXPECT_THAT(damaged.error().line(), ::testing::HasSubstr("milepost-mapper codebook"));
+  EXPECT_EQ(read_codebook(folder.path() / "none").error().code, ErrorCode::not_found);
 }
 
 }  // namespace

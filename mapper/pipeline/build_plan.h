@@ -1,0 +1,37 @@
+// What a build maps: the road network of all drives, and the stretches of each drive that carry the
+// segments' lines and landmarks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mapper/network/finding.h"
+#include "mapper/network/road_network.h"
+#include "mapper/pipeline/settings.h"
+#include "mapper/pipeline/stretch_plan.h"
+#include "schema/base/result.h"
+#include "schema/drive/drive.h"
+#include "schema/store/map_store.h"
+
+namespace milepost {
+
+struct DrivePlan {
+  const Drive* drive = nullptr;
+  std::vector<StretchPlan> stretches;  // that carry a segment
+
+  std::size_t frames() const;  // of all stretches
+};
+
+struct BuildPlan {
+  std::vector<DrivePlan> drives;         // by name
+  std::vector<StoredSegment> segments;   // by id
+  std::vector<NetworkFinding> findings;  // about the drives and their network
+};
+
+// The plan does not depend on the order of the drives. REQUIRES: the drives outlive it. Errors:
+// invalid_input (two drives of one name, a name that is not an id, a drive that does not move);
+// those of FrameReader::gray where passes are compared.
+Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettings& settings,
+                             int jobs);
+
+}  // namespace milepost

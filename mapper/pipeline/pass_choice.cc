@@ -1,0 +1,85 @@
+#include "mapper/pipeline/pass_choice.h"
+
+#include <algorithm>
+
+#include "mapper/pipeline/frame_pipeline.h"
+
+namespace milepost {
+namespace {
+
+constexpr std::size_t kPassFrames = 4;  // of a pass that are looked at
+constexpr double kAboutEqual = 0.95;    // of the features of the richest
+
+// The frames of a pass, or the nearest one of a pass between two frames.
+std::vector<std::size_t> frames_on(const Pass& pass, const DrivenLine& driven) {
+  std::vector<std::size_t> frames;
+  const std::vector<double>& along_m = driven.line.along_m();
+  for (std::size_t i = 0; i < along_m.size(); ++i) {
+    if (along_m[i] >= pass.from_m && along_m[i] <= pass.to_m) frames.push_back(driven.frames[i]);
+  }
+  if (!frames.empty()) return frames;
+  const auto next = std::ranges::lower_bound(along_m, pass.from_m);
+  return {driven.frames[std::min<std::size_t>(static_cast<std::size_t>(next - along_m.begin()),
+                                              driven.frames.size() - 1)]};
+}
+
+std::vector<std::size_t> spread_evenly(const std::vector<std::size_t>& frames) {
+  std::vector<std::size_t> some;
+  const std::size_t count = std::min(frames.size(), kPassFrames);
+  for (std::size_t i = 0; i < count; ++i)
+    some.push_back(frames[(2 * i + 1) * frames.size() / (2 * count)]);
+  return some;
+}
+
+}  // namespace
+
+PassChoice::PassChoice(const std::vector<const Drive*>& drives,
+                       const std::vector<NamedDrivenLines>& lines, const BuildSettings& settings,
+                       int jobs)
+    : drives_(drives), lines_(lines), settings_(settings), jobs_(jobs) {}
+
+std::size_t PassChoice::best(const std::vector<Pass>& passes) {
+  if (passes.size() == 1) return 0;
+  return settings_.passes == PassPolicy::replace ? latest(passes) : richest(passes);
+}
+
+std::size_t PassChoice::latest(const std::vector<Pass>& passes) const {
+  const auto last = std::ranges::max_element(
+      passes, {}, [&](const Pass& pass) { return drives_[pass.drive]->captured; });
+  return static_cast<std::size_t>(last - passes.begin());
+}
+
+std::size_t PassChoice::richest(const std::vector<Pass>& passes) {
+  std::vector<Quality> found;
+  found.reserve(passes.size());
+  for (const Pass& pass : passes) found.push_back(quality_of(pass));
+  const double most = std::ranges::max_element(found, {}, &Quality::features)->features;
+  std::size_t best = passes.size();
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    if (found[i].features < kAboutEqual * most) continue;
+    if (best == passes.size() || found[i].spacing_m < kAboutEqual * found[best].spacing_m) best = i;
+  }
+  return best;
+}
+
+PassChoice::Quality PassChoice::quality_of(const Pass& pass) {
+  const DrivenLine& driven = lines_[pass.drive].lines[pass.stretch];
+  const std::vector<std::size_t> all = frames_on(pass, driven);
+  const std::vector<std::size_t> some = spread_evenly(all);
+  FeatureParameters every = settings_.feature;
+  every.max_features = 0;  // or good frames would all be equal
+  FramePipeline frames(*drives_[pass.drive], some, every, false, jobs_);
+  double features = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const Result<ExtractedFrame> frame = frames.next();
+    if (!frame) {
+      if (!failure_) failure_ = frame.error();
+      return {};
+    }
+    features += static_cast<double>(frame->features.size());
+  }
+  return {features / static_cast<double>(some.size()),
+          (pass.to_m - pass.from_m) / static_cast<double>(all.size())};
+}
+
+}  // namespace milepost

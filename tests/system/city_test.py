@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Two drives of a small city make one map, on which a tour passes every junction without a receiver."""
+import json
+import os
+import pathlib
+import tempfile
+import unittest
+
+from commands import CLIENT, MAPPER, CommandTest, Server, rows_of, run
+
+SIMULATOR = os.environ["MILEPOST_SIMULATOR"]
+
+
+class City(CommandTest):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.city = pathlib.Path(temporary.name)
+        made = run(SIMULATOR, "--out", cls.city, "--city", "--small", "--camera-px", "360", "300", timeout=1200)
+        assert made.returncode == 0, made.stderr
+        cls.maps = cls.city / "maps"
+        cls.maps.mkdir()
+        cls.drives = [cls.city / "city-1-map", cls.city / "city-2-map"]
+        cls.map = cls.maps / "city.map"
+        built = cls.build_of(cls.drives, cls.map)
+        assert built.returncode == 0, built.stderr
+
+    @staticmethod
+    def build_of(drives, map_file, *words):
+        return run(MAPPER, "build", *(word for drive in drives for word in ("--drive", drive)), "--map", map_file, *words)
+
+    def roads(self, map_file):
+        exported = self.folder / "roads.geojson"
+        self.expect_done(run(MAPPER, "export", "--map", map_file, "--layer", "segments", "--geojson", exported))
+        return [feature["properties"] for feature in json.loads(exported.read_text())["features"]]
+
+    def test_the_drives_make_one_network(self):
+        roads = {road["id"]: road for road in self.roads(self.map)}
+        self.assertEqual({drive["drive"] for road in roads.values() for drive in road["passes"]}, {"city-1-map", "city-2-map"})
+        self.assertTrue(any(len(road["passes"]) > 1 for road in roads.values()))
+        self.assertTrue(any(len(road["successors"]) > 1 for road in roads.values()))
+        for road in roads.values():
+            for successor in road["successors"]:
+                self.assertEqual(successor["map"], "city")
+                self.assertIn(successor["segment"], roads)
+        driven_m = sum(drive["to_m"] - drive["from_m"] for road in roads.values() for drive in road["passes"])
+        self.assertLess(sum(road["length_m"] for road in roads.values()), driven_m - 50)
+
+    def test_neither_order_nor_threads_play_a_part(self):
+        other = self.folder / "city.map"
+        self.expect_done(self.build_of(self.drives[::-1], other, "--jobs", "1"))
+        self.assertEqual(other.read_bytes(), self.map.read_bytes())
+
+    def test_a_tour_passes_every_junction_without_a_receiver(self):
+        out = self.folder / "out"
+        with Server(self.maps) as server:
+            self.expect_done(run(CLIENT, "evaluate", "--server", server.url, "--cache", self.folder / "cache", "--drive",
+                                 self.city / "city-1-tour", "--out", out, "--receiver-until-s", "0"))
+        figures, = json.loads((out / "summary.json").read_text())
+        self.assertEqual(figures["localized_frames"], figures["frames"])
+        self.assertEqual(figures["wrong_segment_frames"], 0)
+        self.assertLess(figures["mean_error_m"], 0.02)
+        self.assertLess(figures["mean_lateral_error_m"], 0.02)
+        self.assertLess(figures["max_distance_m"], 0.9)
+        self.assertLess(figures["map_kb_per_m"], 0.485)
+        rows = rows_of(out / "fixes-milepost.csv")
+        driven = {row["segment"] for row in rows}
+        self.assertEqual(driven, {road["id"] for road in self.roads(self.map)})
+        self.assertGreater(sum(row["status"] == "tracking" for row in rows), 0.92 * len(rows))
+
+    def test_without_the_network_beyond_its_drive_it_is_off_the_map(self):
+        one = self.folder / "one.map"
+        self.expect_done(self.build_of(self.drives[:1], one))
+        out = self.folder / "out"
+        self.expect_done(run(CLIENT, "evaluate", "--map", one, "--drive", self.city / "city-1-tour", "--out", out,
+                             "--receiver-until-s", "0"))
+        rows = rows_of(out / "fixes-milepost.csv")
+        self.assertIn("off-map", {row["status"] for row in rows})
+        for row in rows:
+            if row["distance_m"]:
+                sigma_m = float(row["sigma_m"]) + float(row["lateral_sigma_m"] or 0)
+                self.assertLess(float(row["distance_m"]), max(1, 5 * sigma_m), row)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
