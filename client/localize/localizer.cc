@@ -29,7 +29,7 @@ struct Searching {
   FixStatus waiting = FixStatus::initializing;
   std::vector<Hypothesis> hypotheses = {};
   std::optional<GnssFix> lost_at = {};  // position of the hypothesis tracked last
-  std::optional<Hypothesis> left = {};  // a hypothesis that left its segment over an end
+  std::optional<Hypothesis> left = {};  // a hypothesis that left the map
 
   void leave(Hypothesis hypothesis) {
     waiting = FixStatus::off_map;
@@ -202,12 +202,12 @@ Result<Fix> Localizer::localize(const QueryFrame& frame) {
 
 Fix Localizer::fix_at(double timestamp_s) const {
   const auto* tracking = std::get_if<Tracking>(&impl_->state);
-  if (!tracking) {
-    return unlocated(timestamp_s, std::get<Searching>(impl_->state).waiting);
-  }
+  if (!tracking) return impl_->unclaimed(std::get<Searching>(impl_->state), timestamp_s);
   const Hypothesis& hypothesis = tracking->hypothesis;
   const TrackedPose position = hypothesis.tracker->pose_at(timestamp_s);
-  if (!hypothesis.is_on_segment(position)) return unlocated(timestamp_s, FixStatus::off_map);
+  const bool is_on_map =
+      hypothesis.is_on_segment(position) || leads_on(hypothesis, position, *impl_->provider.held());
+  if (!is_on_map) return unlocated(timestamp_s, FixStatus::off_map);
   Fix fix = impl_->located(hypothesis, position, timestamp_s, FixStatus::predicted);
   if (tracking->doubt) impl_->widen(fix, *tracking->doubt, hypothesis, {});
   return fix;
@@ -539,7 +539,9 @@ Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
       for (const Successor& successor : segment.layer->successors) {  // whose length is unknown
         const auto key = key_of(successor, *segment.layer, held);
         const AlongRange there = range.shifted(-segment.extent().to_m);
-        if (key && there.to_m >= 0 && held.find(*key) == nullptr) want(*key, there, priority + 1);
+        const HeldSegment* successor_held = key ? held.find(*key) : nullptr;
+        const bool is_unknown = successor_held == nullptr || !successor_held->layer;
+        if (key && there.to_m >= 0 && is_unknown) want(*key, there, priority + 1);
       }
     }
   };

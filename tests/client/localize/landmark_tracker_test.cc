@@ -334,5 +334,35 @@ TEST_F(ThroughJunctions, ABlindVehicleIsPredictedOntoTheNextSegment) {
   EXPECT_EQ(seeing.segment, "road-60");
 }
 
+// Farther ahead than the surroundings reach, and so known by the network only.
+TEST_F(ThroughJunctions, WhatLiesBeyondAJunctionIsHeldAndStaysWanted) {
+  LocalizerSettings far = settings();
+  far.prefetch_m = 300;
+  localizer_ = Localizer(map_, road().query_camera(), far);
+  begin_at(20);
+  for (double along_m = 21; along_m < 30; along_m += kFrameM) fix(along_m);
+  for (double along_m = 30; along_m < 34; along_m += kFrameM) {
+    fix(along_m);
+    const auto held = localizer_.provider().held();
+    const auto beyond = std::ranges::find_if(
+        held->segments, [](const auto& segment) { return segment.first.segment == "road-260"; });
+    ASSERT_NE(beyond, held->segments.end()) << "at " << along_m;
+    ASSERT_NE(beyond->second->layer, nullptr) << "at " << along_m;
+    EXPECT_TRUE(
+        std::ranges::any_of(localizer_.provider().wanted().tiles,
+                            [&](const Want& want) { return want.segment == beyond->first; }))
+        << "at " << along_m;
+  }
+}
+
+TEST_F(ThroughJunctions, AFixIsToldForATimeBeyondTheNextJunction) {
+  begin_at(40);
+  for (double along_m = 41; along_m < 58; along_m += kFrameM) fix(along_m);
+  const Fix later = localizer_.fix_at(time_s_ + 1.5);  // 73 m, 8 m beyond the segment
+  EXPECT_EQ(later.status, FixStatus::predicted);
+  EXPECT_EQ(later.segment, "road-0");
+  EXPECT_NEAR(later.position->latitude_deg, road().line().point_at(73).latitude_deg, 1e-5);
+}
+
 }  // namespace
 }  // namespace milepost
