@@ -34,7 +34,9 @@ void require_source(const SourceOptions& options) {
 void add_receiver_option(CLI::App& app, std::optional<double>& until_s) {
   app.add_option("--receiver-until-s", until_s,
                  "Ignore rows of gps.csv later than this after the first frame")
-      ->check(CLI::Range(0.0, 1e9).description(""))
+      ->check([](const std::string& word) {
+        return word.starts_with('-') ? "'" + word + "' is below 0; give seconds" : std::string();
+      })
       ->option_text("S");
 }
 

@@ -47,6 +47,7 @@ void merge_same(std::vector<Hypothesis>& hypotheses) {
 GeoPoint Hypothesis::position() const { return position_of(tracker->pose(), layer().line); }
 
 bool is_on_road(const TrackedPose& pose) {
+  constexpr double kRoadsideM = 12;  // from the line
   constexpr double kSigmas = 3;
   return !pose.full ||
          std::abs(pose.full->lateral_m) <= kRoadsideM + kSigmas * pose.full->lateral_sigma_m;

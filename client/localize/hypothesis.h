@@ -15,8 +15,7 @@
 
 namespace milepost {
 
-inline constexpr double kEndMarginM = 5;  // tolerance beyond a segment's ends ...
-inline constexpr double kRoadsideM = 12;  // ... and of the lateral offset from its line
+inline constexpr double kEndMarginM = 5;  // tolerance beyond a segment's ends
 
 inline constexpr double kSameHypothesisM = 4;  // hypotheses closer than this are merged
 inline constexpr double kAgreedM = 0.5;        // ... and independently found poses agree

@@ -37,6 +37,14 @@ struct BuildOptions {
   BuildSettings settings;
 };
 
+const std::map<std::string, PassPolicy> kPassPolicies = {{"keep-best", PassPolicy::keep_best},
+                                                         {"replace", PassPolicy::replace}};
+
+// What is wrong with a word; empty for a policy.
+std::string wrong_pass_policy(const std::string& word) {
+  return kPassPolicies.contains(word) ? "" : "'" + word + "' is none; choose keep-best or replace";
+}
+
 void add_build_options(CLI::App& app, BuildOptions& options) {
   app.add_option("--drive", options.drives, "Folder of a recorded drive; may be repeated")
       ->required()
@@ -50,14 +58,13 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
   app.add_option("--codebook", options.codebook,
                  "Codebook file instead of the one that ships with milepost")
       ->option_text("FILE");
-  app.add_option(
-         "--passes", options.settings.passes,
-         "Pass that a segment takes where several drove: that in which most is seen, or the "
-         "latest")
-      ->transform(CLI::CheckedTransformer(
-                      std::map<std::string, PassPolicy>{{"keep-best", PassPolicy::keep_best},
-                                                        {"replace", PassPolicy::replace}})
-                      .description(""))
+  const auto set_passes = [&options](const std::string& word) {
+    options.settings.passes = kPassPolicies.at(word);
+  };
+  app.add_option_function<std::string>("--passes", set_passes,
+                                       "Pass that a segment takes where several drove: that in "
+                                       "which most is seen (default), or the latest")
+      ->check(wrong_pass_policy)
       ->option_text("keep-best|replace");
   app.add_flag("--lab", options.settings.lab, "Add the layers of the methods for comparison");
   app.add_flag("--allow-empty", options.settings.allow_empty,

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <thread>
 
 #include <opencv2/core/utility.hpp>
@@ -41,12 +43,14 @@ int make_codebook(const std::string& program, const CodebookOptions& options) {
     return kExitWrongCall;
   }
   std::vector<Drive> drives;
+  std::vector<std::filesystem::path> inputs;
   for (const std::string& folder : options.drives) {
     Result<Drive> drive = read_drive(folder);
     if (!drive) return fail(program, drive.error());
+    std::ranges::copy(files_of(*drive), std::back_inserter(inputs));
     drives.push_back(std::move(*drive));
   }
-  if (const Status free = check_outputs({{"--out", options.out, &kCodebookOutput}}, {}); !free)
+  if (const Status free = check_outputs({{"--out", options.out, &kCodebookOutput}}, inputs); !free)
     return fail(program, free.error());
   cv::setNumThreads(1);  // one frame per thread
   const BuildSettings settings;

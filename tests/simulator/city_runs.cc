@@ -52,12 +52,7 @@ RunPlan tour_run(const City& city, std::size_t index, double length_m) {
   run.motion.cruise_mps = 9 + static_cast<double>(index % 3);
   run.motion.lateral_m = index % 2 == 0 ? 0.25 : -0.25;
   run.motion.wander_m = 0.2;
-  run.period_jitter_s = 0.006;
-  run.dropped_share = 0.02;
-  run.image_noise = 3;
-  run.heading_jitter_deg = 0.35;
-  run.pitch_jitter_deg = 0.25;
-  run.roll_jitter_deg = 0.15;
+  be_driven_by_another(run);
   run.light = light_of(index + 1);
   run.light.sun_azimuth_deg -= 12;
   run.light.sun_elevation_deg -= 3;

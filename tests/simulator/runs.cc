@@ -49,12 +49,7 @@ RunPlan query_run(const Leg& leg, double length_m, std::uint64_t seed) {
   run.motion.from_m += std::min(3.0, length_m / 8);
   run.motion.start_s = 1000;
   run.frame_period_s = 0.2;
-  run.period_jitter_s = 0.006;
-  run.dropped_share = 0.02;
-  run.image_noise = 3;
-  run.heading_jitter_deg = 0.35;
-  run.pitch_jitter_deg = 0.25;
-  run.roll_jitter_deg = 0.15;
+  be_driven_by_another(run);
   run.has_receiver = true;
   run.has_odometer = true;
   return run;
@@ -123,6 +118,15 @@ RunPlan back_query(const Leg& leg, double route_m, double length_m, std::uint64_
 }
 
 }  // namespace
+
+void be_driven_by_another(RunPlan& run) {
+  run.period_jitter_s = 0.006;
+  run.dropped_share = 0.02;
+  run.image_noise = 3;
+  run.heading_jitter_deg = 0.35;
+  run.pitch_jitter_deg = 0.25;
+  run.roll_jitter_deg = 0.15;
+}
 
 Path path_of(const Network& network, const RunPlan& run) {
   const Path& path = network.route(run.route)->path;

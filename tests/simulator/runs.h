@@ -50,6 +50,10 @@ struct RunPlan {
   std::uint64_t seed = 1;     // of everything random in the run
 };
 
+// Frames by time, some of them late or lost, from a camera that shakes and whose pictures are
+// noisier.
+void be_driven_by_another(RunPlan& run);
+
 // The path of a run. REQUIRES: the network has its route.
 Path path_of(const Network& network, const RunPlan& run);
 

@@ -1,6 +1,5 @@
 """Networks and caches that hang while a drive is localized: no frame waits for them."""
 import contextlib
-import http.server
 import os
 import pathlib
 import signal
@@ -9,11 +8,11 @@ import subprocess
 import threading
 import time
 import unittest
-import urllib.error
 import urllib.request
 
 import commands
 from commands import CLIENT, CommandTest, STREET, Server, rows_of, run, wait_until_caught
+from proxies import proxied
 
 LONGEST_S = 120       # of a drive
 LONGEST_FRAME_MS = 3000
@@ -23,39 +22,9 @@ LONGEST_FRAME_MS = 3000
 def between(url, spoil):
     """A proxy in front of the server at `url`; yields its URL. `spoil` may respond instead."""
     ending = threading.Event()
-
-    class Handler(http.server.BaseHTTPRequestHandler):
-        protocol_version = "HTTP/1.1"
-
-        def do_GET(self):
-            if spoil(self, ending):
-                return
-            try:
-                with urllib.request.urlopen(url + self.path) as answer:
-                    status, header, body = answer.status, answer.headers, answer.read()
-            except urllib.error.HTTPError as error:
-                status, header, body = error.code, error.headers, error.read()
-            self.send_response(status)
-            self.send_header("Content-Type", header["Content-Type"])
-            self.send_header("Content-Length", str(len(body)))
-            self.end_headers()
-            self.wfile.write(body)
-
-        def log_message(self, *_):
-            pass
-
-    class Proxy(http.server.ThreadingHTTPServer):
-        daemon_threads = True
-        block_on_close = False
-
-        def handle_error(self, *_):  # the client disconnected
-            pass
-
-    with Proxy(("127.0.0.1", 0), Handler) as proxy:
-        threading.Thread(target=proxy.serve_forever, daemon=True).start()
-        yield f"http://127.0.0.1:{proxy.server_address[1]}"
+    with proxied(url, answers=lambda request: spoil(request, ending)) as proxy:
+        yield proxy.url
         ending.set()
-        proxy.shutdown()
 
 
 def never(_request, ending):

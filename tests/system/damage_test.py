@@ -1,55 +1,28 @@
 """One bit or digit of the map changed, on its way or in the cache: every fix is the true one, or there is none."""
 import contextlib
 import hashlib
-import http.server
 import json
 import sqlite3
-import threading
 import unittest
-import urllib.error
-import urllib.request
 
 import commands
 from commands import CLIENT, CommandTest, STREET, Server, rows_of, run
+from proxies import proxied
 
 
 @contextlib.contextmanager
 def spoiling(url):
     """A proxy in front of the server at `url`; yields it. Its `change` is applied to the bodies whose path it matches."""
-    class Handler(http.server.BaseHTTPRequestHandler):
-        protocol_version = "HTTP/1.1"
+    def changed_body(request, status, body):
+        past_caches = request.headers.get("Cache-Control") == "no-cache"
+        if status != 200 or not proxy.change or (past_caches and proxy.only_cached):
+            return body
+        return proxy.change(request.path, body)
 
-        def do_GET(self):
-            try:
-                with urllib.request.urlopen(url + self.path) as answer:
-                    status, header, body = answer.status, answer.headers, answer.read()
-            except urllib.error.HTTPError as error:
-                status, header, body = error.code, error.headers, error.read()
-            past_caches = self.headers.get("Cache-Control") == "no-cache"
-            if status == 200 and self.server.change and not (past_caches and self.server.only_cached):
-                body = self.server.change(self.path, body)
-            self.send_response(status)
-            self.send_header("Content-Type", header["Content-Type"])
-            self.send_header("Content-Length", str(len(body)))
-            self.end_headers()
-            self.wfile.write(body)
-
-        def log_message(self, *_):
-            pass
-
-    class Proxy(http.server.ThreadingHTTPServer):
-        daemon_threads = True
-        change = None
-        only_cached = False  # requests past caches get the right bytes
-
-        def handle_error(self, *_):  # the client disconnected
-            pass
-
-    with Proxy(("127.0.0.1", 0), Handler) as proxy:
-        proxy.url = f"http://127.0.0.1:{proxy.server_address[1]}"
-        threading.Thread(target=proxy.serve_forever, daemon=True).start()
+    with proxied(url, changed=changed_body) as proxy:
+        proxy.change = None
+        proxy.only_cached = False  # requests past caches get the right bytes
         yield proxy
-        proxy.shutdown()
 
 
 def changed(body, at):
