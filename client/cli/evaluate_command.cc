@@ -51,7 +51,7 @@ Result<std::vector<Method>> methods_named(const std::vector<std::string>& names)
   return methods;
 }
 
-// A fix on the segment with the most fixes, for the report's map; null without any.
+// A fix on the segment with the most fixes; null without any.
 const Fix* typical_fix(const std::vector<MethodEvaluation>& methods) {
   std::map<std::string, std::size_t> counts;
   const Fix* typical = nullptr;
@@ -77,13 +77,11 @@ Result<std::string> report_of(const Drive& drive, const std::string& source_name
   input.drive = &drive;
   input.methods = methods;
   if (const Fix* fix = typical_fix(methods)) {
-    const Result<SegmentDescription> segment = source.segment(fix->version, fix->segment);
-    if (!segment) return segment.error();
     input.map_name = fix->version.map + " (build " + fix->version.build + ")";
-    input.segment = fix->segment;
-    input.segment_line = segment->vertices;
-    input.segment_length_m = segment->length_m;
   }
+  Result<std::vector<RoadAround>> roads = roads_around(drive, methods, source);
+  if (!roads) return roads.error();
+  input.roads = std::move(*roads);
   return report_page(report_data(input));
 }
 

@@ -142,6 +142,20 @@ Status Localizer::observe(const OdometryReading& reading) {
   return {};
 }
 
+Status Localizer::expect_route(const std::vector<RoutePoint>& route) {
+  std::vector<GeoPoint> positions;
+  positions.reserve(route.size());
+  for (const RoutePoint& point : route)
+    positions.push_back({point.latitude_deg, point.longitude_deg, 0});
+  milepost::Result<ExpectedRoute> expected = ExpectedRoute::through(std::move(positions));
+  if (!expected) {
+    return wrong("route", expected.error().what,
+                 "pass two WGS84 positions or more, in driving order");
+  }
+  impl_->localizer.expect(std::move(*expected));
+  return {};
+}
+
 Result<Fix> Localizer::localize(double timestamp_s, const ImageView& image) {
   if (!std::isfinite(timestamp_s)) {
     return wrong("image", "its timestamp is not finite", "pass seconds of the vehicle's clock");

@@ -1,26 +1,54 @@
 #include "client/face/map_ahead.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
 #include "client/face/conversions.h"
 #include "client/fetch/documents.h"
+#include "client/localize/unrolled_road.h"
 
 namespace milepost::vehicle {
 namespace {
 
-// The contiguous length held from an arc length on, at most to the end of the segment.
-double held_from_m(const HeldSegment& segment, double along_m) {
-  const double end_m = segment.layer->line.length_m();
-  double held_to_m = end_m;
+constexpr double kFarthestM = 10000;  // that is looked ahead
+
+// Where the first tile from an arc length on that is not held begins; infinite if all are held.
+double first_gap_m(const HeldSegment& segment, double along_m) {
+  double gap_m = std::numeric_limits<double>::infinity();
   for (const TileEntry& entry : segment.layer->index) {
     const bool is_ahead = entry.along.to_m >= along_m;
-    if (is_ahead && !segment.tiles.contains(entry.index)) {
-      held_to_m = std::min(held_to_m, entry.along.from_m);
-    }
+    if (is_ahead && !segment.tiles.contains(entry.index))
+      gap_m = std::min(gap_m, entry.along.from_m);
   }
-  return std::max(0.0, held_to_m - along_m);
+  return gap_m;
+}
+
+bool has_unknown_successor(const SegmentLayer& segment, const HeldMap& held) {
+  return std::ranges::any_of(segment.successors, [&](const Successor& successor) {
+    const auto key = key_of(successor, segment, held);
+    const HeldSegment* known = key ? held.find(*key) : nullptr;
+    return known == nullptr || !known->layer;
+  });
+}
+
+// The contiguous length held from an arc length on, on every branch; at most to where the last one
+// ends.
+double held_from_m(const HeldSegment& segment, double along_m, const HeldMap& held) {
+  double held_to_m = std::numeric_limits<double>::infinity();
+  double end_m = along_m;
+  for (const UnrolledSegment& part :
+       unrolled_road(held, segment.layer, {along_m, along_m + kFarthestM})) {
+    if (part.side != RoadSide::current && part.side != RoadSide::ahead) continue;
+    const double from_m = std::max(0.0, along_m - part.offset_m);
+    held_to_m =
+        std::min(held_to_m, part.offset_m + first_gap_m(*held.find(part.layer->key), from_m));
+    if (has_unknown_successor(*part.layer, held))
+      held_to_m = std::min(held_to_m, part.extent().to_m);
+    end_m = std::max(end_m, part.extent().to_m);
+  }
+  return std::max(0.0, std::min(held_to_m, end_m) - along_m);
 }
 
 MissingRange missing_range(const SegmentKey& key, const AlongRange& range,
@@ -65,7 +93,8 @@ MapAhead map_ahead_of(const HeldMap& held, const Wants& wants,
   ahead.missing.erase(std::unique(ahead.missing.begin(), ahead.missing.end(), is_same),
                       ahead.missing.end());
   const HeldSegment* segment = from ? held.find(from->key) : nullptr;
-  if (segment != nullptr && segment->layer) ahead.held_m = held_from_m(*segment, from->along_m);
+  if (segment != nullptr && segment->layer)
+    ahead.held_m = held_from_m(*segment, from->along_m, held);
   return ahead;
 }
 

@@ -44,7 +44,8 @@ class HeldMap {
   // All segments within the known surroundings, as the source listed them.
   Surroundings known_around{{}, -1};
   std::vector<NearbySegment> around;
-  std::optional<Error> around_failure;  // why they could not be updated
+  std::optional<Error> around_failure;             // why they could not be updated
+  std::map<std::string, MapVersion> current_maps;  // by name, of the catalog; those asked for
 };
 
 }  // namespace milepost

@@ -96,6 +96,11 @@ bool ProviderState::knows_surroundings() const {
   return !wants_.around || covers(known_around_, *wants_.around);
 }
 
+bool ProviderState::knows_maps() const {
+  return std::ranges::all_of(wants_.maps,
+                             [&](const std::string& map) { return current_maps_.contains(map); });
+}
+
 std::optional<FetchTask> ProviderState::next_fetch(SteadyTime now) const {
   if (!knows_surroundings() && around_backoff_.is_due(now)) {
     Surroundings asked = *wants_.around;
@@ -115,6 +120,7 @@ std::optional<FetchTask> ProviderState::next_fetch(SteadyTime now) const {
     std::vector<TileEntry> run = first_run(segment, want.range, now);
     if (!run.empty()) return FetchTiles{segment.held.layer, std::move(run)};
   }
+  if (!knows_maps() && catalog_.is_due(now)) return AskCatalog{};
   for (const SegmentKey& key : documents_wanted()) {
     if (lacks_documents(key)) return ReadDocuments{key};
   }
@@ -164,6 +170,7 @@ std::optional<SteadyTime> ProviderState::next_due(SteadyTime now) const {
     if (!first || backoff.due() < *first) first = backoff.due();
   };
   if (!knows_surroundings()) consider(around_backoff_);
+  if (!knows_maps()) consider(catalog_);
   consider(network_);
   for (const auto& [key, segment] : segments_) {
     if (!segment.held.layer) consider(segment.documents);
@@ -191,6 +198,21 @@ void ProviderState::take(const AskAround& task, std::vector<NearbySegment> near,
   }
   release_unused();
   await_what_is_wanted();
+  publish();
+}
+
+// A map that the catalog lacks, or still lists as it was, is looked for again later.
+void ProviderState::take(const AskCatalog& /*task*/, const std::vector<MapVersion>& catalog,
+                         SteadyTime now) {
+  for (const MapVersion& version : catalog) {
+    const bool is_wanted = wants_.maps.contains(version.map) && !gone_.contains(version);
+    if (is_wanted) current_maps_.insert_or_assign(version.map, version);
+  }
+  if (knows_maps()) {
+    catalog_.succeeded();
+  } else {
+    catalog_.failed(now, 0, settings_.backoff, random_);
+  }
   publish();
 }
 
@@ -241,6 +263,10 @@ void ProviderState::failed(const FetchTask& task, const FetchFailure& failure) {
     around_failure_ = failure.error;
     around_backoff_.failed(failure.ended, failure.retry_after_s, settings_.backoff, random_);
     return publish();
+  }
+  if (std::holds_alternative<AskCatalog>(task)) {
+    catalog_.failed(failure.ended, failure.retry_after_s, settings_.backoff, random_);
+    return;
   }
   const auto* documents = std::get_if<ReadDocuments>(&task);
   const auto* tiles = std::get_if<FetchTiles>(&task);
@@ -296,6 +322,7 @@ void ProviderState::give_up(const MapVersion& version, const Error& error) {
     segment.held.failure = error;
   }
   std::erase_if(around_, [&](const NearbySegment& near) { return near.version == version; });
+  std::erase_if(current_maps_, [&](const auto& current) { return current.second == version; });
   known_around_.radius_m = -1;
   publish();
 }
@@ -319,6 +346,7 @@ bool ProviderState::is_settled(const Want& want) const {
 
 bool ProviderState::is_settled() const {
   if (!knows_surroundings() && !around_failure_) return false;
+  if (!knows_maps() && catalog_.failures() == 0) return false;
   const auto is_open = [&](const SegmentKey& key) {
     const Segment& segment = segments_.at(key);
     return segment.held.layer || segment.held.failure;
@@ -336,6 +364,7 @@ void ProviderState::publish() {
   }
   held->known_around = known_around_;
   held->around = around_;
+  held->current_maps = current_maps_;
   held->around_failure = around_failure_;
   held_ = std::move(held);
 }

@@ -43,7 +43,8 @@ struct FetchTiles {
   std::shared_ptr<const SegmentLayer> of;
   std::vector<TileEntry> tiles;  // adjacent in the index
 };
-using FetchTask = std::variant<AskAround, ReadDocuments, FetchTiles>;
+struct AskCatalog {};
+using FetchTask = std::variant<AskAround, ReadDocuments, FetchTiles, AskCatalog>;
 
 // A failed request.
 struct FetchFailure {
@@ -73,6 +74,7 @@ class ProviderState {
 
   // The outcomes of these. Results for tiles that are no longer wanted are discarded.
   void take(const AskAround& task, std::vector<NearbySegment> near, SteadyTime now);
+  void take(const AskCatalog& task, const std::vector<MapVersion>& catalog, SteadyTime now);
   void take(std::shared_ptr<const SegmentLayer> layer);
   void take(const SegmentKey& key, std::uint32_t index, std::shared_ptr<const DecodedTile> tile);
   void is_not_stored(const SegmentKey& key, std::uint32_t index);
@@ -99,6 +101,7 @@ class ProviderState {
   };
 
   bool knows_surroundings() const;
+  bool knows_maps() const;
   std::vector<SegmentKey> documents_wanted() const;
   bool is_away() const;
   bool is_settled(const Want& want) const;
@@ -117,6 +120,8 @@ class ProviderState {
   std::vector<NearbySegment> around_;
   std::optional<Error> around_failure_;
   Backoff around_backoff_;
+  std::map<std::string, MapVersion> current_maps_;  // of those wanted
+  Backoff catalog_;
   Backoff network_;
   std::optional<SteadyTime> failing_since_;  // the network, ...
   SteadyTime failed_at_;                     // ... most recently

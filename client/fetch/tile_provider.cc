@@ -42,6 +42,7 @@ struct TileProvider::Impl {
   Attempt ask(const AskAround& task);
   Attempt ask(const ReadDocuments& task);
   Attempt ask(const FetchTiles& task);
+  Attempt ask(const AskCatalog& task);
   Result<std::shared_ptr<const BuildLayer>> parameters_of(const MapVersion& version);
   void take(const SegmentLayer& of, std::uint32_t index, ByteView encoded);
 
@@ -177,6 +178,14 @@ Attempt TileProvider::Impl::ask(const FetchTiles& task) {
                                take(*task.of, tile.index, tile.bytes);
                                changed.notify_all();
                              });
+}
+
+Attempt TileProvider::Impl::ask(const AskCatalog& task) {
+  const auto catalog = source->maps();
+  if (!catalog) return {catalog.error()};
+  const std::lock_guard lock(mutex);
+  state.take(task, *catalog, steady_clock::now());
+  return {};
 }
 
 Result<std::shared_ptr<const BuildLayer>> TileProvider::Impl::parameters_of(

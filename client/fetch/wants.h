@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -37,6 +38,7 @@ struct Surroundings {
 struct Wants {
   std::optional<Surroundings> around;
   std::vector<Want> tiles;
+  std::set<std::string> maps;  // whose current build is asked for: those of successors
 };
 
 }  // namespace milepost

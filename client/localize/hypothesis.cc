@@ -4,6 +4,10 @@
 #include <cmath>
 #include <functional>
 
+#include <Eigen/Dense>
+
+#include "client/estimation/student_t.h"
+
 namespace milepost {
 namespace {
 
@@ -40,6 +44,28 @@ void merge_same(std::vector<Hypothesis>& hypotheses) {
     }
   }
   hypotheses = std::move(merged);
+}
+
+// Of a distance along a segment after some time without a measurement.
+double log_density_of_arc(double off_m, double sigma_m, double since_s) {
+  constexpr double kAccelerationMps2 = 2;
+  const double spread_m = 0.5 + sigma_m + kAccelerationMps2 * since_s * since_s / 2;
+  return -off_m * off_m / (spread_m * spread_m) / 2;
+}
+
+// The squared Mahalanobis distance of two poses in plan: east, north and heading.
+double squared_sigmas_apart(const GeoCameraPose& a, const GeoCameraPose& b) {
+  using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  constexpr double kMinSigmaM = 0.3;
+  constexpr double kMinSigmaDeg = 0.5;
+  const Matrix6 sum = Eigen::Map<const Matrix6>(a.covariance.data()) +
+                      Eigen::Map<const Matrix6>(b.covariance.data());
+  const std::vector<int> plan = {0, 1, 3};
+  Eigen::Matrix3d covariance = sum(plan, plan);
+  covariance.diagonal() += Eigen::Vector3d(kMinSigmaM, kMinSigmaM, kMinSigmaDeg).cwiseAbs2();
+  const EnuPoint off = LocalFrame(a.position).enu_from_geo(b.position);
+  const Eigen::Vector3d apart(off.east_m, off.north_m, turn_deg(a.heading_deg, b.heading_deg));
+  return apart.dot(covariance.ldlt().solve(apart));
 }
 
 }  // namespace
@@ -116,16 +142,23 @@ double log_odds_of_first(const std::vector<Hypothesis>& hypotheses) {
   return hypotheses.front().odds.log() - std::log(against);
 }
 
-double log_density_after(const Hypothesis& left, const Hypothesis& hypothesis) {
-  constexpr double kAccelerationMps2 = 2;
-  if (left.layer().key != hypothesis.layer().key) return 0;
-  const double since_s = hypothesis.timestamp_s - left.timestamp_s;
-  const double off_m =
-      hypothesis.tracker->pose().along_m - left.tracker->pose_at(hypothesis.timestamp_s).along_m;
-  const double sigma_m =
-      0.5 + left.tracker->pose().sigma_m + kAccelerationMps2 * since_s * since_s / 2;
-  const double sigmas = off_m / sigma_m;
-  return -sigmas * sigmas / 2;
+double log_bayes_factor_after(const Hypothesis& left, const Hypothesis& hypothesis) {
+  constexpr double kElsewhereSigmas = 2;  // the distance at which it is neutral ...
+  constexpr double kDegrees = 3;          // ... of Student's t
+  constexpr double kMaxAgainst = 4.6;
+  const TrackedPose carried = left.tracker->pose_at(hypothesis.timestamp_s);
+  const TrackedPose here = hypothesis.tracker->pose();
+  const bool is_same_segment = left.layer().key == hypothesis.layer().key;
+  if (!carried.full || !here.full) {
+    if (!is_same_segment) return 0;
+    const double since_s = hypothesis.timestamp_s - left.timestamp_s;
+    return log_density_of_arc(here.along_m - carried.along_m, left.tracker->pose().sigma_m,
+                              since_s);
+  }
+  const double squared = squared_sigmas_apart(carried.full->camera, here.full->camera);
+  const double log_bayes_factor = log_student_t(squared, kDegrees) -
+                                  log_student_t(kElsewhereSigmas * kElsewhereSigmas, kDegrees);
+  return is_same_segment ? log_bayes_factor : std::max(log_bayes_factor, -kMaxAgainst);
 }
 
 }  // namespace milepost

@@ -64,8 +64,10 @@ void weigh(std::vector<Hypothesis>& hypotheses, const std::optional<GnssFix>& re
 // The log odds of the first hypothesis against all others and elsewhere. REQUIRES: there is one.
 double log_odds_of_first(const std::vector<Hypothesis>& hypotheses);
 
-// The log-likelihood of a hypothesis given the motion since another one left its segment over the
-// end: the map may look the same there as beyond its end. 0 if they are on different segments.
-double log_density_after(const Hypothesis& left, const Hypothesis& hypothesis);
+// The log Bayes factor, for a hypothesis against elsewhere, of the motion since another one left
+// the map. On the segment that was left it may be large against: the map may look the same there as
+// beyond its end. On others it is bounded, as the motion is carried on without a measurement; 0
+// there for methods that know the arc length only.
+double log_bayes_factor_after(const Hypothesis& left, const Hypothesis& hypothesis);
 
 }  // namespace milepost

@@ -6,10 +6,10 @@
 #include <limits>
 #include <variant>
 
-#include "client/fetch/tile_provider.h"
+#include "client/localize/branches.h"
 #include "client/localize/hypothesis.h"
 #include "client/localize/relocalization_check.h"
-#include "client/localize/unrolled_road.h"
+#include "client/localize/wanted_map.h"
 #include "schema/geo/near.h"
 
 namespace milepost {
@@ -28,7 +28,7 @@ struct Searching {
   // The status reported until one is accepted: initializing, lost, off_map.
   FixStatus waiting = FixStatus::initializing;
   std::vector<Hypothesis> hypotheses = {};
-  std::optional<GnssFix> lost_at = {};  // position of the hypothesis tracked last
+  std::optional<GnssFix> lost_at = {};  // position of the hypothesis, or branch, tracked last
   std::optional<Hypothesis> left = {};  // a hypothesis that left the map
 
   void leave(Hypothesis hypothesis) {
@@ -72,6 +72,7 @@ struct Localizer::Impl {
 
   std::optional<GnssFix> gnss;       // the latest
   std::optional<Odometry> odometry;  // the latest
+  ExpectedRoute route;
   std::variant<Searching, Tracking> state = Searching{};
   std::vector<OpenSegment> segments;  // recently opened, the latest last
   std::optional<Error> last_error;
@@ -108,11 +109,21 @@ Fix unlocated(double timestamp_s, FixStatus status) {
   return fix;
 }
 
+GnssFix place_of(const Hypothesis& hypothesis, double timestamp_s) {
+  const double sigma_m = std::max(hypothesis.tracker->pose().sigma_m, kElsewhereM);
+  return {timestamp_s, hypothesis.position(), sigma_m};
+}
+
 Searching lost_from(const Hypothesis& hypothesis, double timestamp_s) {
   Searching lost{FixStatus::lost};
-  const double sigma_m = std::max(hypothesis.tracker->pose().sigma_m, kElsewhereM);
-  lost.lost_at = GnssFix{timestamp_s, hypothesis.position(), sigma_m};
+  lost.lost_at = place_of(hypothesis, timestamp_s);
   return lost;
+}
+
+Searching at_a_junction(std::vector<Hypothesis> branches, double timestamp_s) {
+  Searching searching{FixStatus::initializing, std::move(branches)};
+  searching.lost_at = place_of(searching.hypotheses.front(), timestamp_s);
+  return searching;
 }
 
 // Adds an isotropic variance in the horizontal plane.
@@ -124,33 +135,6 @@ void widen_in_plan(GeoCameraPose& camera, double sigma_m) {
 // Whether the hypothesis' segment ends within `ahead_m`.
 bool is_near_end(const Hypothesis& hypothesis, double ahead_m) {
   return hypothesis.tracker->pose().along_m + ahead_m > hypothesis.layer().line.length_m();
-}
-
-// Whether a pose beyond an end of its segment is on a segment that continues it.
-bool leads_on(const Hypothesis& hypothesis, const TrackedPose& pose, const HeldMap& held) {
-  const AlongRange around = AlongRange{pose.along_m, pose.along_m}.widened(kEndMarginM);
-  const auto road = unrolled_road(held, hypothesis.tracker->layer(), around);
-  return std::ranges::any_of(road, [](const UnrolledSegment& segment) {
-    return segment.side == RoadSide::ahead || segment.side == RoadSide::behind;
-  });
-}
-
-// Of a method that knows the arc length only: the hypothesis on each branch, once it is beyond the
-// end of its segment.
-std::vector<Hypothesis> branches_of(const Hypothesis& hypothesis, const TrackedPose& pose,
-                                    const HeldMap& held) {
-  std::vector<Hypothesis> branches;
-  constexpr double kWithinOverlapM = 2.5;  // frames of the map end with it
-  const double length_m = hypothesis.layer().line.length_m();
-  if (pose.along_m <= length_m - kWithinOverlapM) return branches;
-  for (const UnrolledSegment& segment :
-       unrolled_road(held, hypothesis.tracker->layer(), {length_m, length_m})) {
-    if (segment.side != RoadSide::ahead || segment.junctions > 1) continue;
-    if (pose.along_m <= std::min(length_m, segment.offset_m + kWithinOverlapM)) continue;
-    if (auto there = hypothesis.continued_on(segment.layer, segment.offset_m))
-      branches.push_back(std::move(*there));
-  }
-  return branches;
 }
 
 // Whether the segment leads in the vehicle's heading, if that is known.
@@ -188,6 +172,8 @@ void Localizer::observe(const Odometry& odometry) {
     if (searching.left) searching.left->tracker->observe(odometry);
   }
 }
+
+void Localizer::expect(ExpectedRoute route) { impl_->route = std::move(route); }
 
 const std::optional<Error>& Localizer::last_error() const { return impl_->last_error; }
 
@@ -314,7 +300,7 @@ NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFi
                             candidate.log_bayes_factor,
                             candidate.matches};
       if (!hypothesis.is_on_segment(hypothesis.tracker->pose())) continue;
-      if (searching.left) hypothesis.odds.add(log_density_after(*searching.left, hypothesis));
+      if (searching.left) hypothesis.odds.add(log_bayes_factor_after(*searching.left, hypothesis));
       if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)
         hypothesis.tracker->observe(*odometry);
       searching.hypotheses.push_back(std::move(hypothesis));
@@ -349,7 +335,9 @@ Result<Fix> Localizer::Impl::search(SharedFrame& frame) {
   auto& searching = std::get<Searching>(state);
   carry(searching, frame);
   const std::optional<GnssFix> reading = fresh(gnss, frame.timestamp_s());
-  auto around = reading ? reading : fresh(searching.lost_at, frame.timestamp_s());
+  std::optional<GnssFix> around = reading;
+  const bool is_tested = searching.waiting != FixStatus::lost && !searching.hypotheses.empty();
+  if (!around && !is_tested) around = fresh(searching.lost_at, frame.timestamp_s());
   if (!around) around = left_at(searching, frame.timestamp_s());
   if (around) {
     const NearbySearch nearby = relocalize_nearby(frame, *around, searching);
@@ -368,6 +356,9 @@ Result<Fix> Localizer::Impl::search(SharedFrame& frame) {
     }
   }
   weigh(searching.hypotheses, reading, static_cast<std::size_t>(settings.max_hypotheses));
+  const bool are_branches = searching.lost_at && searching.waiting == FixStatus::initializing;
+  if (are_branches && !searching.hypotheses.empty())
+    searching.lost_at = place_of(searching.hypotheses.front(), frame.timestamp_s());
   return weighed(searching, frame.timestamp_s());
 }
 
@@ -434,7 +425,7 @@ Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
   if (std::vector<Hypothesis> branches = branches_of(hypothesis, expected, frame.held());
       !branches.empty()) {
     if (branches.size() > 1) {
-      state = Searching{FixStatus::initializing, std::move(branches)};
+      state = at_a_junction(std::move(branches), frame.timestamp_s());
       return search(frame);
     }
     hypothesis = std::move(branches.front());
@@ -523,51 +514,33 @@ void Localizer::Impl::widen(Fix& fix, double log_odds, const Hypothesis& hypothe
 
 // The map data that a frame at that time, and those after it, need.
 Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
-  enum : int { kNow, kSoon, kPerhaps, kAhead };
   const WindowReach& reach = settings.method_settings.reach;
-  Wants wants;
-  const auto want = [&](const SegmentKey& key, const AlongRange& range, int priority) {
-    wants.tiles.push_back({key, range, priority});
-  };
-  // A range of the way that a hypothesis is on, ahead on all branches and behind.
-  const auto want_way = [&](const Hypothesis& hypothesis, const AlongRange& range, int priority) {
-    for (const UnrolledSegment& segment : unrolled_road(held, hypothesis.tracker->layer(), range)) {
-      if (segment.side == RoadSide::beside) continue;
-      const bool is_likely = segment.side == RoadSide::current || segment.is_main_way;
-      want(segment.layer->key, range.shifted(-segment.offset_m),
-           is_likely ? priority : priority + 1);
-      for (const Successor& successor : segment.layer->successors) {  // whose length is unknown
-        const auto key = key_of(successor, *segment.layer, held);
-        const AlongRange there = range.shifted(-segment.extent().to_m);
-        const HeldSegment* successor_held = key ? held.find(*key) : nullptr;
-        const bool is_unknown = successor_held == nullptr || !successor_held->layer;
-        if (key && there.to_m >= 0 && is_unknown) want(*key, there, priority + 1);
-      }
-    }
-  };
+  WantedMap wanted(held, route);
   const auto want_place = [&](const Hypothesis& hypothesis) {
     // The region tracked, plus the region of relocalization.
     constexpr double kSecondLookM = kSameHypothesisM + 10;
     const AlongRange needed = hypothesis.tracker->needed(timestamp_s).widened(kSecondLookM);
-    want_way(hypothesis, reach.around(needed), kNow);
+    wanted.add_way(hypothesis.tracker->layer(), reach.around(needed), WantedFor::this_frame);
   };
   std::optional<GnssFix> around = fresh(gnss, timestamp_s);
   const auto* tracking = std::get_if<Tracking>(&state);
   if (tracking) {
-    want_place(tracking->hypothesis);
-    const double at_m = tracking->hypothesis.tracker->pose().along_m;
-    want_way(tracking->hypothesis, {at_m, at_m + settings.prefetch_m}, kAhead);
-    if (!around) around = GnssFix{timestamp_s, tracking->hypothesis.position(), 0};
+    const Hypothesis& tracked = tracking->hypothesis;
+    want_place(tracked);
+    const double at_m = tracked.tracker->pose().along_m;
+    wanted.add_way(tracked.tracker->layer(), {at_m, at_m + settings.prefetch_m},
+                   WantedFor::the_way_ahead);
+    if (!around) around = GnssFix{timestamp_s, tracked.position(), 0};
   } else {
     const auto& searching = std::get<Searching>(state);
     for (const Hypothesis& hypothesis : searching.hypotheses) want_place(hypothesis);
     if (!around) around = fresh(searching.lost_at, timestamp_s);
     if (!around) around = left_at(searching, timestamp_s);
   }
-  if (!around) return wants;
-  wants.around = surroundings(*around);
-  auto near = held.segments_near(*wants.around);
-  if (!near) return wants;
+  if (!around) return wanted.wants();
+  wanted.set_surroundings(surroundings(*around));
+  auto near = held.segments_near(surroundings(*around));
+  if (!near) return wanted.wants();
   if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
   for (const NearbySegment& where : *near) {
     const SegmentKey key = {where.version, where.segment};
@@ -577,9 +550,10 @@ Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
     if (!is_of_use) continue;
     const AlongRange looked_at =
         AlongRange{where.along_m, where.along_m}.widened(start_reach_m(*around, timestamp_s));
-    want(key, reach.around(looked_at), tracking ? kPerhaps : kNow);
+    wanted.add(key, reach.around(looked_at),
+               tracking ? WantedFor::a_restart : WantedFor::this_frame);
   }
-  return wants;
+  return wanted.wants();
 }
 
 }  // namespace milepost

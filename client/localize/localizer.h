@@ -9,6 +9,7 @@
 #include "client/fetch/provider_state.h"
 #include "client/fetch/stopped.h"
 #include "client/fetch/tile_provider.h"
+#include "client/localize/expected_route.h"
 #include "client/localize/fix.h"
 #include "client/localize/gnss_fix.h"
 #include "client/localize/gnss_likelihood.h"
@@ -52,6 +53,10 @@ class Localizer {
   // between frames. Pass each reading before the first frame with a later timestamp. Readings that
   // are not finite or not ascending in time are ignored.
   void observe(const Odometry& odometry);
+
+  // Sets the route that decides which branches are fetched first; it is no evidence of where the
+  // vehicle is.
+  void expect(ExpectedRoute route);
 
   // The fix of the next frame, by the map data held. REQUIRES: timestamps ascend strictly. Errors:
   // those of the map source while there is no map data to continue with (unavailable, corrupt,

@@ -18,8 +18,13 @@ void LogOdds::add_frame(double log_bayes_factor, double best, double along_m) {
   }
   const double novel =
       seen_ ? std::min(1.0, std::abs(along_m - seen_from_m_) / settings_.novel_m) : 1.0;
-  log_ += std::min(novel * log_bayes_factor, settings_.max_for);
+  const double still_counted = (1 - novel) * counted_;
+  const double whole = std::min(log_bayes_factor, settings_.max_for);
+  const double more =
+      std::max(std::min(novel * log_bayes_factor, settings_.max_for), whole - still_counted);
+  log_ += more;
   log_ -= std::min(novel * (best - log_bayes_factor), settings_.max_for);
+  counted_ = still_counted + more;
   seen_ = true;
   seen_from_m_ = along_m;
 }

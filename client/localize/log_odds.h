@@ -14,8 +14,8 @@ struct LogOddsSettings {
   double doubt = 2;          // ... upper bound after a frame that contradicts it; ...
   double give_up = 0;        // ... below which it is rejected
   // Consecutive frames see the same landmarks: evidence in favour counts in proportion to the
-  // distance travelled since the last one, fully after this distance. Evidence against counts
-  // fully.
+  // distance travelled since the last one, fully after this distance, and as far as it exceeds what
+  // was counted of the frames before. Evidence against counts fully.
   double novel_m = 5;
   // Probability that the vehicle leaves the map or the belief slips within novel_m. Bounds the
   // odds.
@@ -41,6 +41,7 @@ class LogOdds {
   double log_;
   bool seen_ = false;
   double seen_from_m_ = 0;  // arc length of the last frame in favour
+  double counted_ = 0;      // of the evidence in favour that lies within novel_m of it
 };
 
 }  // namespace milepost

@@ -49,6 +49,8 @@ std::optional<SegmentKey> key_of(const Successor& successor, const SegmentLayer&
   for (const auto& [key, segment] : held.segments) {
     if (key.version.map == successor.map) return SegmentKey{key.version, successor.segment};
   }
+  const auto current = held.current_maps.find(successor.map);
+  if (current != held.current_maps.end()) return SegmentKey{current->second, successor.segment};
   return std::nullopt;
 }
 

@@ -38,7 +38,7 @@ std::vector<UnrolledSegment> unrolled_road(const HeldMap& held,
                                            const AlongRange& range);
 
 // The version of a successor's map: that of the segment itself, or, in another map, the version
-// that is listed or held there. None while it is not known.
+// that is listed around, held, or in the catalog. None while it is not known.
 std::optional<SegmentKey> key_of(const Successor& successor, const SegmentLayer& from,
                                  const HeldMap& held);
 

@@ -21,7 +21,8 @@ constexpr const char* kBuildDescription =
     R"(Builds a map from recorded drives.
 
 All drives make one road network: its segments end where drives part or join, and where several
-drove, a segment takes one pass. Segments hold tracklets: SIFT features tracked over consecutive
+drove, a segment takes one pass. --border divides it into two maps, and a vehicle passes from one to
+the other as at a junction. Segments hold tracklets: SIFT features tracked over consecutive
 frames. For the default method each becomes a landmark, and the most informative are kept;
 with --lab there is a layer for each method to compare with, too. A drive in which nothing is
 found ends the build, and an old map stays.
@@ -33,6 +34,8 @@ struct BuildOptions {
   std::vector<std::string> drives;
   std::string map;
   std::string codebook;
+  std::vector<double> border_deg;
+  std::string beyond;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   BuildSettings settings;
 };
@@ -66,6 +69,18 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
                                        "which most is seen (default), or the latest")
       ->check(wrong_pass_policy)
       ->option_text("keep-best|replace");
+  CLI::Option* border =
+      app.add_option("--border", options.border_deg,
+                     "Line through two points, in WGS84 degrees, at which the network is divided:\n"
+                     "what is left of it, from the first point to the second, goes to --map")
+          ->expected(4)
+          ->delimiter(',')
+          ->option_text("LAT,LON,LAT,LON");
+  CLI::Option* beyond = app.add_option("--beyond", options.beyond,
+                                       "Map file to write with what is right of the border")
+                            ->option_text("FILE");
+  border->needs(beyond);
+  beyond->needs(border);
   app.add_flag("--lab", options.settings.lab, "Add the layers of the methods for comparison");
   app.add_flag("--allow-empty", options.settings.allow_empty,
                "Write the map even if nothing was found for it");
@@ -98,24 +113,35 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
           "Frames nearer to the last one used are skipped", 0.01, 100);
 }
 
-Status check_map_is_free(const std::vector<Drive>& drives, const std::string& map) {
+Status check_maps_are_free(const std::vector<Drive>& drives, const BuildOptions& options) {
   std::vector<std::filesystem::path> inputs;
   for (const Drive& drive : drives) {
     const std::vector<std::filesystem::path> files = files_of(drive);
     inputs.insert(inputs.end(), files.begin(), files.end());
   }
-  return check_outputs({{"--map", map, &kMapOutput}}, inputs);
+  std::vector<Output> outputs = {{"--map", options.map, &kMapOutput}};
+  if (!options.beyond.empty()) outputs.push_back({"--beyond", options.beyond, &kMapOutput});
+  return check_outputs(outputs, inputs);
 }
 
-std::string summary_line(const BuildReport& report, const std::string& map) {
+std::string summary_line(const MapReport& map, std::size_t frames) {
   const std::string segments =
-      std::to_string(report.segments) + (report.segments == 1 ? " segment of " : " segments of ");
-  const double tracklets_a_metre = static_cast<double>(report.tracklets) / report.length_m;
-  const double kb_a_metre = static_cast<double>(report.tracklet_bytes) / 1000 / report.length_m;
-  return map + ": build " + report.build + ", " + segments + fixed(report.length_m, 1) + " m, " +
-         std::to_string(report.frames) + " frames, " + std::to_string(report.tracklets) +
+      std::to_string(map.segments) + (map.segments == 1 ? " segment of " : " segments of ");
+  const double tracklets_a_metre = static_cast<double>(map.tracklets) / map.length_m;
+  const double kb_a_metre = static_cast<double>(map.tracklet_bytes) / 1000 / map.length_m;
+  return map.file.string() + ": build " + map.build + ", " + segments + fixed(map.length_m, 1) +
+         " m, " + std::to_string(frames) + " frames, " + std::to_string(map.tracklets) +
          " tracklets (" + fixed(tracklets_a_metre, 1) + " per metre) in " +
-         std::to_string(report.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m";
+         std::to_string(map.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m";
+}
+
+// The division that the options ask for, if any.
+Result<std::optional<Division>> division_of(const BuildOptions& options) {
+  if (options.border_deg.empty()) return std::optional<Division>();
+  const std::vector<double>& deg = options.border_deg;
+  Result<Border> border = Border::through({deg[0], deg[1], 0}, {deg[2], deg[3], 0});
+  if (!border) return border.error();
+  return std::optional(Division{std::move(*border), options.beyond});
 }
 
 int build(const std::string& program, BuildOptions options) {
@@ -124,13 +150,16 @@ int build(const std::string& program, BuildOptions options) {
     if (!codebook) return fail(program, codebook.error());
     options.settings.codebook = std::move(*codebook);
   }
+  Result<std::optional<Division>> division = division_of(options);
+  if (!division) return fail(program, division.error());
+  options.settings.division = std::move(*division);
   std::vector<Drive> drives;
   for (const std::string& folder : options.drives) {
     Result<Drive> drive = read_drive(folder);
     if (!drive) return fail(program, drive.error());
     drives.push_back(std::move(*drive));
   }
-  if (const Status free = check_map_is_free(drives, options.map); !free) {
+  if (const Status free = check_maps_are_free(drives, options); !free) {
     return fail(program, free.error());
   }
   catch_stop_signals();
@@ -151,7 +180,7 @@ int build(const std::string& program, BuildOptions options) {
   for (const DriveReport& drive : report->drives) {
     if (drive.frames > 0 && drive.tracklets == 0) warn(program, nothing_found(drive));
   }
-  std::cout << summary_line(*report, options.map) << "\n";
+  for (const MapReport& map : report->maps) std::cout << summary_line(map, report->frames) << "\n";
   return kExitDone;
 }
 

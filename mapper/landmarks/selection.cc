@@ -24,8 +24,8 @@ LandmarkSelector::Information LandmarkSelector::prior() const {
 // Calls visit(place, row) for each place from which the landmark is visible; `row` is the bearing's
 // Jacobian by arc length, lateral offset and heading, divided by the bearing's sigma.
 template <class Visit>
-void LandmarkSelector::visit_sightings(const MappedLandmark& landmark, const RouteLine& line,
-                                       Visit visit) const {
+void LandmarkSelector::visit_observations(const MappedLandmark& landmark, const RouteLine& line,
+                                          Visit visit) const {
   const double seen_again =
       static_cast<double>(landmark.observations) /
       (static_cast<double>(landmark.observations) + settings_.half_repeated_at);
@@ -54,7 +54,7 @@ void LandmarkSelector::visit_sightings(const MappedLandmark& landmark, const Rou
 double LandmarkSelector::gain(const MappedLandmark& landmark, const RouteLine& line,
                               const Places& places) const {
   double sum = 0;
-  visit_sightings(landmark, line, [&](long place, const Eigen::RowVector3d& row) {
+  visit_observations(landmark, line, [&](long place, const Eigen::RowVector3d& row) {
     const auto found = places.find(place);
     const Information& known = found == places.end() ? prior() : found->second;
     sum += std::log1p(row * known.inverse() * row.transpose());
@@ -64,7 +64,7 @@ double LandmarkSelector::gain(const MappedLandmark& landmark, const RouteLine& l
 
 void LandmarkSelector::add(const MappedLandmark& landmark, const RouteLine& line,
                            Places& places) const {
-  visit_sightings(landmark, line, [&](long place, const Eigen::RowVector3d& row) {
+  visit_observations(landmark, line, [&](long place, const Eigen::RowVector3d& row) {
     places.try_emplace(place, prior()).first->second += row.transpose() * row;
   });
 }

@@ -42,7 +42,7 @@ class LandmarkSelector {
   double gain(const MappedLandmark& landmark, const RouteLine& line, const Places& places) const;
   void add(const MappedLandmark& landmark, const RouteLine& line, Places& places) const;
   template <class Visit>
-  void visit_sightings(const MappedLandmark& landmark, const RouteLine& line, Visit visit) const;
+  void visit_observations(const MappedLandmark& landmark, const RouteLine& line, Visit visit) const;
   Information prior() const;
 
   SelectionSettings settings_;

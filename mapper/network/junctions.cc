@@ -34,8 +34,19 @@ bool holds_change(const std::vector<Change>& changes, const AlongRange& range) {
       changes, [&](const Change& change) { return range.contains(change.place.along_m); });
 }
 
+// Where a way crosses a border.
+std::vector<double> crossings_m(const Way& way, const Border& border) {
+  std::vector<double> found;
+  for (std::size_t i = 0; i + 1 < way.states.size(); ++i) {
+    const bool crosses =
+        border.has_left(way.states[i].position_m) != border.has_left(way.states[i + 1].position_m);
+    if (crosses) found.push_back(static_cast<double>(i) + 0.5);
+  }
+  return found;
+}
+
 void add_changes(std::size_t index, const Way& way, const CrossSections& sections,
-                 const UTurnSettings& settings, std::vector<Change>& changes) {
+                 const JunctionSettings& settings, std::vector<Change>& changes) {
   const std::size_t first_change = changes.size();
   changes.push_back({{index, 0}});
   std::vector<Place> places = sections.places({index, 0});
@@ -47,11 +58,18 @@ void add_changes(std::size_t index, const Way& way, const CrossSections& section
   }
   const std::vector<Change> passes_change(
       changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end());
-  for (const AlongRange& arc : u_turns(way, settings)) {
-    const AlongRange before{arc.from_m - settings.max_approach_m, arc.from_m};
-    const AlongRange after{arc.to_m, arc.to_m + settings.max_approach_m};
+  const double approach_m = settings.u_turn.max_approach_m;
+  for (const AlongRange& arc : u_turns(way, settings.u_turn)) {
+    const AlongRange before{arc.from_m - approach_m, arc.from_m};
+    const AlongRange after{arc.to_m, arc.to_m + approach_m};
     if (!holds_change(passes_change, before)) changes.push_back({{index, arc.from_m}, true});
     if (!holds_change(passes_change, after)) changes.push_back({{index, arc.to_m}, true});
+  }
+  if (settings.border) {
+    for (const double crossing_m : crossings_m(way, *settings.border)) {
+      const AlongRange near = AlongRange{crossing_m, crossing_m}.widened(settings.border_reach_m);
+      if (!holds_change(passes_change, near)) changes.push_back({{index, crossing_m}, true});
+    }
   }
   changes.push_back({{index, way.length_m}});
   std::stable_sort(changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end(),
@@ -201,7 +219,7 @@ std::vector<std::vector<Cut>> junction_cuts(const std::vector<Way>& ways,
                                             const JunctionSettings& settings) {
   std::vector<Change> changes;
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    add_changes(i, ways[i], sections, settings.u_turn, changes);
+    add_changes(i, ways[i], sections, settings, changes);
   }
   std::vector<Change> means =
       JunctionClusters(std::move(changes), sections, settings.radius_m).means();

@@ -69,6 +69,13 @@ NetworkFinding finding_of(const StackedPieces& stacked, const std::vector<Way>& 
       "map them with altitudes, or with a drive that changes between them"};
 }
 
+// Whether most of a piece is right of a border.
+bool is_beyond(const Piece& piece, const Way& way, const std::optional<Border>& border) {
+  if (!border) return false;
+  const std::size_t middle = nearest_state(way, (piece.from_m + piece.to_m) / 2);
+  return !border->has_left(way.states[middle].position_m);
+}
+
 // The ids of the segments in which a group's pieces go on.
 std::vector<std::string> successors(const PieceGroup& group, std::size_t reference,
                                     const std::map<Place, std::size_t>& by_begin,
@@ -129,6 +136,7 @@ RoadNetwork road_network(const std::vector<NamedDrivenLines>& drives,
     const Piece& reference = group[segment.reference];
     segment.id = segment_id_of(drives[ways[reference.way].drive].name,
                                begin_of(reference, ways[reference.way]));
+    segment.is_beyond_border = is_beyond(reference, ways[reference.way], settings.junction.border);
     network.segments.push_back(std::move(segment));
   }
   const std::map<Place, std::size_t> by_begin = groups_by_begin(groups);

@@ -36,6 +36,7 @@ struct NetworkSegment {
   std::size_t reference = 0;  // index of the pass whose line and landmarks the segment takes
   // Ids of segments that a drive went on to; the reference pass's own first, the others sorted.
   std::vector<std::string> successors;
+  bool is_beyond_border = false;  // its middle is right of JunctionSettings::border
 
   const Pass& reference_pass() const { return passes[reference]; }
 };

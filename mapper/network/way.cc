@@ -3,20 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <GeographicLib/Geocentric.hpp>
+#include "mapper/network/geocentric.h"
 
 namespace milepost {
 namespace {
 
 constexpr std::size_t kPositionReach = 3;  // states on either side that a position is averaged over
 constexpr std::size_t kDirectionReach = 6;  // the same for a direction
-
-Eigen::Vector3d geocentric(const GeoPoint& point) {
-  Eigen::Vector3d position_m;
-  GeographicLib::Geocentric::WGS84().Forward(point.latitude_deg, point.longitude_deg, 0,
-                                             position_m.x(), position_m.y(), position_m.z());
-  return position_m;
-}
 
 // The mean of the points first to last.
 Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& points_m, std::size_t first,

@@ -11,7 +11,6 @@
 #include "mapper/pipeline/frame_pipeline.h"
 #include "mapper/pipeline/layer_builder.h"
 #include "mapper/pipeline/layers.h"
-#include "schema/store/map_store.h"
 
 namespace milepost {
 namespace {
@@ -39,7 +38,7 @@ class StretchBuilder {
   }
 
   // Adds its counts to the last of the report's drives.
-  Status run(int jobs, MapWriter& map, BuildReport& report, BuildProgress& progress,
+  Status run(int jobs, DividedMap& map, BuildReport& report, BuildProgress& progress,
              const OnProgress& on_progress) {
     FramePipeline frames(drive_, plan_.frame_indices, settings_.feature, settings_.lab, jobs);
     for (std::size_t i = 0; i < plan_.frame_indices.size(); ++i) {
@@ -69,21 +68,16 @@ class StretchBuilder {
     found.brightest = std::max(found.brightest, frame.brightest);
   }
 
-  Status add_and_write(const std::vector<Track>& ended, double complete_until_m, MapWriter& map,
+  Status add_and_write(const std::vector<Track>& ended, double complete_until_m, DividedMap& map,
                        BuildReport& report) {
     for (const NamedBuilder& layer : layers_) {
       layer.builder->add_tracks(ended);
-      const Result<std::vector<StoredTile>> tiles = layer.builder->take_complete(complete_until_m);
+      const Result<std::vector<BuiltTile>> tiles = layer.builder->take_complete(complete_until_m);
       if (!tiles) return tiles.error();
-      for (const StoredTile& tile : *tiles) {
-        const Status added =
-            map.add_tile(tile.segment, layer.layer, tile.index, tile.along, tile.items, tile.frame);
+      for (const BuiltTile& tile : *tiles) {
+        const Status added = map.add_tile(layer.layer, tile);
         if (!added.ok()) return added;
-        ++report.tiles;
-        if (layer.layer != layers::kLandmarks) continue;
-        report.tracklets += tile.items;
-        report.drives.back().tracklets += tile.items;
-        report.tracklet_bytes += tile.frame.size();
+        if (layer.layer == layers::kLandmarks) report.drives.back().tracklets += tile.items;
       }
     }
     return ok_status();
@@ -140,7 +134,7 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
       return checked.error();
   }
   const PcaProjection& codebook = settings.codebook ? *settings.codebook : shipped_codebook();
-  Result<MapWriter> map = MapWriter::create(map_file);
+  Result<DividedMap> map = DividedMap::create(*plan, map_file, settings.division);
   if (!map) return map.error();
   Status status = map->set_feature_json(to_json(settings.feature).dump());
   for (const Layer& layer : layers_of(settings)) {
@@ -152,11 +146,6 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   }
   BuildReport report;
   report.findings = plan->findings;
-  for (const StoredSegment& segment : plan->segments) {
-    if (status.ok()) status = map->add_segment(segment);
-    report.length_m += segment.length_m;
-  }
-  report.segments = plan->segments.size();
   BuildProgress progress;
   for (const DrivePlan& drive : plan->drives) progress.frames_total += drive.frames();
   for (const DrivePlan& drive : plan->drives) {
@@ -172,9 +161,9 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     }
   }
   if (!status.ok()) return status.error();
-  Result<std::string> build = map->finish();
-  if (!build) return build.error();
-  report.build = *build;
+  Result<std::vector<MapReport>> maps = map->finish();
+  if (!maps) return maps.error();
+  report.maps = std::move(*maps);
   report.frames = progress.frames_done;
   return report;
 }

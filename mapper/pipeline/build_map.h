@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mapper/network/finding.h"
+#include "mapper/pipeline/divided_map.h"
 #include "mapper/pipeline/settings.h"
 #include "schema/base/result.h"
 #include "schema/drive/drive.h"
@@ -29,15 +30,10 @@ struct DriveReport {
 };
 
 struct BuildReport {
-  std::string build;
+  std::vector<MapReport> maps;           // one, or one on either side of the border
   std::vector<DriveReport> drives;       // by name
   std::vector<NetworkFinding> findings;  // about the drives and their network
-  std::size_t segments = 0;
   std::size_t frames = 0;
-  std::size_t tiles = 0;
-  std::size_t tracklets = 0;         // of the layer `tracklets`
-  std::uint64_t tracklet_bytes = 0;  // of its tiles
-  double length_m = 0;
 };
 
 // The error for a drive without tracklets, with its statistics.
@@ -45,9 +41,9 @@ Error nothing_found(const DriveReport& drive);
 
 // Builds `map_file` from the drives, which make one road network. The map's bytes depend only on
 // drives and settings, not on the order of the drives. `on_progress` is called after each frame,
-// from this thread; the build ends with `cancelled` once it returns false. `map_file` is created or
-// replaced only after success. Errors: invalid_input, also for a drive without any tracklet unless
-// the settings allow it; io; cancelled.
+// from this thread; the build ends with `cancelled` once it returns false. `map_file`, and the map
+// beyond a border, are created or replaced only after success. Errors: invalid_input, also for a
+// drive without any tracklet unless the settings allow it; io; cancelled.
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
                               int jobs,

@@ -79,8 +79,10 @@ Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettin
     lines.push_back(std::move(*of_drive));
   }
   PassChoice choice(*sorted, lines, settings, jobs);
-  const RoadNetwork network =
-      road_network(lines, {}, [&](const std::vector<Pass>& passes) { return choice.best(passes); });
+  NetworkSettings of_network;
+  if (settings.division) of_network.junction.border = settings.division->border;
+  const RoadNetwork network = road_network(
+      lines, of_network, [&](const std::vector<Pass>& passes) { return choice.best(passes); });
   if (choice.failure()) return *choice.failure();
 
   BuildPlan plan;
@@ -92,6 +94,7 @@ Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettin
         const auto segment =
             std::ranges::lower_bound(network.segments, cut.id, {}, &NetworkSegment::id);
         plan.segments.push_back(stored_segment(*segment, cut.line, *sorted));
+        if (segment->is_beyond_border) plan.beyond_border.insert(cut.id);
       }
     }
   }

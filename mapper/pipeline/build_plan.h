@@ -2,6 +2,7 @@
 // segments' lines and landmarks.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct DrivePlan {
 struct BuildPlan {
   std::vector<DrivePlan> drives;         // by name
   std::vector<StoredSegment> segments;   // by id
+  std::set<std::string> beyond_border;   // ids of the segments right of the border
   std::vector<NetworkFinding> findings;  // about the drives and their network
 };
 

@@ -36,19 +36,19 @@ void LandmarkLayerBuilder::add_tracks(const std::vector<Track>& tracks) {
   mapper_.add_tracks(tracks);
 }
 
-Result<std::vector<StoredTile>> LandmarkLayerBuilder::take_complete(double along_m) {
+Result<std::vector<BuiltTile>> LandmarkLayerBuilder::take_complete(double along_m) {
   for (const MappedLandmark& landmark : mapper_.take_mapped(std::isinf(along_m))) {
     for (Segment& segment : segments_) {
       if (const auto placed = landmark_on(landmark, segment.cut->on_stretch))
         segment.assembler.add(*placed);
     }
   }
-  std::vector<StoredTile> tiles;
+  std::vector<BuiltTile> tiles;
   const double complete_until_m = std::min(along_m, mapper_.oldest_waiting_along_m());
   for (Segment& segment : segments_) {
     const double complete_m = complete_on(complete_until_m, segment.cut->on_stretch);
     for (const auto& complete : segment.assembler.take_complete(complete_m)) {
-      Result<StoredTile> tile = stored(segment, complete.index, complete.items);
+      Result<BuiltTile> tile = stored(segment, complete.index, complete.items);
       if (!tile) return tile.error();
       if (tile->items > 0) tiles.push_back(std::move(*tile));
     }
@@ -57,8 +57,8 @@ Result<std::vector<StoredTile>> LandmarkLayerBuilder::take_complete(double along
 }
 
 // The tile of the best-ranked landmarks that fits the size target of its stretch of road.
-Result<StoredTile> LandmarkLayerBuilder::stored(
-    Segment& segment, std::uint32_t index, const std::vector<MappedLandmark>& landmarks) const {
+Result<BuiltTile> LandmarkLayerBuilder::stored(Segment& segment, std::uint32_t index,
+                                               const std::vector<MappedLandmark>& landmarks) const {
   const RouteLine& line = segment.cut->line;
   const double begin_m = index * context_.tile_length_m;
   const double stretch_m = std::min(context_.tile_length_m, line.length_m() - begin_m);
@@ -66,7 +66,7 @@ Result<StoredTile> LandmarkLayerBuilder::stored(
   const std::vector<std::size_t> ranked = segment.selector.ranked(landmarks, line);
 
   // The largest number of ranked landmarks that fits.
-  StoredTile best{segment.cut->id, index, {}, 0, {}};
+  BuiltTile best{segment.cut->id, index, {}, 0, {}};
   std::vector<std::size_t> best_chosen;
   std::size_t fits = 0;
   std::size_t too_many = ranked.size() + 1;

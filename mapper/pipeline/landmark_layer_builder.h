@@ -16,7 +16,7 @@ class LandmarkLayerBuilder : public LayerBuilder {
 
   void add_frame(const Frame& recorded, const ExtractedFrame& frame, double along_m) override;
   void add_tracks(const std::vector<Track>& tracks) override;
-  Result<std::vector<StoredTile>> take_complete(double along_m) override;
+  Result<std::vector<BuiltTile>> take_complete(double along_m) override;
 
  private:
   struct Segment {
@@ -25,8 +25,8 @@ class LandmarkLayerBuilder : public LayerBuilder {
     TileAssembler<MappedLandmark> assembler;
   };
 
-  Result<StoredTile> stored(Segment& segment, std::uint32_t index,
-                            const std::vector<MappedLandmark>& landmarks) const;
+  Result<BuiltTile> stored(Segment& segment, std::uint32_t index,
+                           const std::vector<MappedLandmark>& landmarks) const;
   LandmarkTile packed(const SegmentCut& segment, std::uint32_t index,
                       const std::vector<MappedLandmark>& landmarks) const;
 

@@ -31,9 +31,9 @@ class SegmentTiles {
   // Encodes the tiles that are complete. `encode` encodes a segment's id, a tile's index and items,
   // and `decode` verifies the result: nothing is written that a reader would reject.
   template <class Encode, class Decode>
-  Result<std::vector<StoredTile>> take_complete(double along_m, const Encode& encode,
-                                                const Decode& decode) {
-    std::vector<StoredTile> tiles;
+  Result<std::vector<BuiltTile>> take_complete(double along_m, const Encode& encode,
+                                               const Decode& decode) {
+    std::vector<BuiltTile> tiles;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       const std::string& segment = segments_[i].id;
       const double complete_m = complete_on(along_m, segments_[i].on_stretch);
@@ -70,7 +70,7 @@ class TrackletLayerBuilder : public LayerBuilder {
     }
   }
 
-  Result<std::vector<StoredTile>> take_complete(double along_m) override {
+  Result<std::vector<BuiltTile>> take_complete(double along_m) override {
     const auto encode = [this](const std::string& segment, std::uint32_t index,
                                std::vector<Tracklet> tracklets) {
       return encode_tile({segment, index, regression_.model, std::move(tracklets)});
@@ -99,7 +99,7 @@ class ObservationLayerBuilder : public LayerBuilder {
     }
   }
 
-  Result<std::vector<StoredTile>> take_complete(double along_m) override {
+  Result<std::vector<BuiltTile>> take_complete(double along_m) override {
     const auto encode = [this](const std::string& segment, std::uint32_t index,
                                std::vector<ObservedTracklet> tracklets) {
       return encode_observations({segment, index, regression_.model, std::move(tracklets)});
@@ -127,7 +127,7 @@ class FrameLayerBuilder : public LayerBuilder {
     });
   }
 
-  Result<std::vector<StoredTile>> take_complete(double along_m) override {
+  Result<std::vector<BuiltTile>> take_complete(double along_m) override {
     const auto encode = [](const std::string& segment, std::uint32_t index,
                            std::vector<DatabaseFrame> frames) {
       return encode_frames({segment, index, std::move(frames)});

@@ -19,7 +19,7 @@
 namespace milepost {
 
 // An encoded tile with its index entry.
-struct StoredTile {
+struct BuiltTile {
   std::string segment;
   std::uint32_t index = 0;
   AlongRange along;
@@ -41,7 +41,7 @@ class LayerBuilder {
   // The tiles to which no item beginning at `along_m` or later belongs, each segment's ascending;
   // each is returned once. Infinity, after all items were added, returns the rest.
   // Errors: invalid_input for a tile that holds more than the format allows.
-  virtual Result<std::vector<StoredTile>> take_complete(double along_m) = 0;
+  virtual Result<std::vector<BuiltTile>> take_complete(double along_m) = 0;
 };
 
 // Shared inputs of all layers of one stretch. It outlives their builders.

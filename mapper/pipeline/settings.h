@@ -1,10 +1,12 @@
 // All settings that determine the map, in addition to the drives.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "mapper/landmarks/landmark_mapper.h"
 #include "mapper/landmarks/selection.h"
+#include "mapper/network/border.h"
 #include "mapper/tracklets/feature_tracker.h"
 #include "schema/feature/pca_projection.h"
 #include "schema/feature/types.h"
@@ -23,6 +25,13 @@ enum class PassPolicy {
   replace,    // the latest
 };
 
+// Divides the network: segments right of the border are written to a map of their own, and segments
+// of either map may go on in the other.
+struct Division {
+  Border border;
+  std::filesystem::path beyond;  // the map file of what is right of it
+};
+
 struct BuildSettings {
   FeatureParameters feature;
   FeatureTrackingSettings follow;
@@ -33,6 +42,7 @@ struct BuildSettings {
   double tile_length_m = 20;
   double min_frame_spacing_m = 0.3;  // frames nearer to the last one used are skipped
   PassPolicy passes = PassPolicy::keep_best;
+  std::optional<Division> division;
   bool lab = false;          // also build the layers of the other methods
   bool allow_empty = false;  // a drive without any tracklet is not an error
 };

@@ -39,9 +39,9 @@ class AlteredDrive(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
         self.query = self.folder / "query"
 
-    def altered(self, *words):
+    def altered(self, *arguments):
         out = self.folder / "out"
-        subprocess.run([ALTER_DRIVE, self.query, out, *map(str, words)], check=True)
+        subprocess.run([ALTER_DRIVE, self.query, out, *map(str, arguments)], check=True)
         return out
 
     def description(self, drive):

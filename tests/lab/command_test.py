@@ -22,18 +22,18 @@ class Command(unittest.TestCase):
         cls.pairs = cls.folder / "street.txt"
         cls.pairs.write_text(f"drives {STREET}\nstreet street-map street-query\n")
 
-    def lab(self, *words):
-        return subprocess.run([sys.executable, "-B", "-m", "laboratory", *map(str, words)], capture_output=True,
+    def lab(self, *arguments):
+        return subprocess.run([sys.executable, "-B", "-m", "laboratory", *map(str, arguments)], capture_output=True,
                               text=True, stdin=subprocess.DEVNULL, check=False)
 
-    def measure(self, name, *words):
+    def measure(self, name, *arguments):
         called = self.lab(self.pairs, "--method", *METHODS, "--out", self.folder / name,
-                          "--cache", self.folder / f"cache-{name}", *words)
+                          "--cache", self.folder / f"cache-{name}", *arguments)
         self.assertEqual(called.returncode, 0, called.stderr)
         return called, self.folder / name
 
-    def expect_refused(self, code, words, *parts):
-        called = self.lab(*words)
+    def expect_refused(self, code, arguments, *parts):
+        called = self.lab(*arguments)
         self.assertEqual(called.returncode, code, called.stderr)
         self.assertEqual(called.stderr.count("\n"), 1, called.stderr)
         for part in parts:

@@ -18,7 +18,7 @@ HEADER = "filename,segment,along_m,latitude_deg,longitude_deg,matches,log_bayes_
 DEGREES_PER_M = 1 / 110574  # to the north, at the equator
 
 
-def sighting(name, north_m, factor, segment="s"):
+def relocalization(name, north_m, factor, segment="s"):
     return f"{name}.jpg,{segment},{north_m},{north_m * DEGREES_PER_M:.10f},0,9,{factor},0,0,0\n"
 
 
@@ -31,15 +31,15 @@ class Evidence(unittest.TestCase):
         self.run_ = types.SimpleNamespace(
             map_file="m", query_drive=self.folder / "query", pair=PAIR, evaluation=types.SimpleNamespace(result=self.folder))
 
-    def rows(self, *sightings):
-        (self.folder / "sightings.csv").write_text(HEADER + "".join(sightings))
+    def rows(self, *relocalizations):
+        (self.folder / "relocalizations.csv").write_text(HEADER + "".join(relocalizations))
         with mock.patch.object(evidence, "read_roads", lambda file: {"s": Road([0, 9], [[0, 0], [0, 9]], LocalFrame(0, 0, 0))}):
             outcome = evidence.outcome({"plain": [self.run_]})
         headings = [f"{heading} {unit}".strip() for heading, unit, _ in outcome.table.columns]
         return [dict(zip(headings, row)) for row in outcome.table.rows], outcome
 
     def test_its_own_place_is_near_and_elsewhere_far(self):
-        rows, outcome = self.rows(sighting(1, 10.4, 20), sighting(1, 11, 7), sighting(1, 13, 6), sighting(2, 13, -3))
+        rows, outcome = self.rows(relocalization(1, 10.4, 20), relocalization(1, 11, 7), relocalization(1, 13, 6), relocalization(2, 13, -3))
         own, elsewhere = rows[:2]
         self.assertEqual((own["places"], own["median"]), (1, 20))
         self.assertEqual((elsewhere["places"], elsewhere["greatest"], elsewhere["above 5 %"], elsewhere["below 0 %"]),
@@ -49,7 +49,7 @@ class Evidence(unittest.TestCase):
         self.assertEqual([name.split(",")[0] for name in names], ["elsewhere", "where the frame was taken"])
 
     def test_a_place_counts_once_a_frame(self):
-        rows, _ = self.rows(sighting(0, 0, 20), sighting(0, 0.2, 20), sighting(0, 0.1, 20, "t"), sighting(1, 0.1, 1))
+        rows, _ = self.rows(relocalization(0, 0, 20), relocalization(0, 0.2, 20), relocalization(0, 0.1, 20, "t"), relocalization(1, 0.1, 1))
         self.assertEqual([row["places"] for row in rows[:2]], [2, 1])
 
     def test_frames_without_a_place_are_no_places(self):
@@ -61,7 +61,7 @@ class Evidence(unittest.TestCase):
         planned = evidence.plan(Planner(["milepost"]), [PAIR])
         self.assertEqual(list(planned), ["plain", "blur", "soft", "noise", "half", "dark"])
         for (run,) in planned.values():
-            self.assertEqual(run.evaluation.kind, "sightings")
+            self.assertEqual(run.evaluation.kind, "relocalizations")
         self.assertEqual(len({run.map_stage for (run,) in planned.values()}), 1)
 
 

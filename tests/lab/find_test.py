@@ -75,7 +75,7 @@ class Reading(Folder):
         recording = found.read_recording(self.folder)
         offs_m = []
         for seed in range(1, 21):
-            _, place, _, sigma_m = find.start_words(recording, 5.0, seed)
+            _, place, _, sigma_m = find.start_arguments(recording, 5.0, seed)
             self.assertEqual(sigma_m, "5.0")
             latitude_deg, longitude_deg = map(float, place.split(","))
             offs_m.append(recording.frame.from_earth(earth_centred(latitude_deg, longitude_deg, ORIGIN[2]))[:2])
@@ -135,8 +135,8 @@ class Counting(unittest.TestCase):
 
 
 class Command(Folder):
-    def command(self, *words):
-        return subprocess.run([COMMAND, *map(str, words)], capture_output=True, text=True, check=False)
+    def command(self, *arguments):
+        return subprocess.run([COMMAND, *map(str, arguments)], capture_output=True, text=True, check=False)
 
     def test_the_street_from_a_known_start(self):
         walls, street_map, page = (self.folder / name for name in ("walls.geojson", "street.map", "page.html"))

@@ -16,8 +16,8 @@ METHODS = ["tracklet-regression-kalman", "milepost"]
 PAIR = Pair("p", Place(folder=pathlib.Path("/drives")), "a-map", "a-query")
 
 
-def words_of(stage):
-    return [str(word) for word in stage.words(pathlib.Path("/out"), 1)]
+def arguments_of(stage):
+    return [str(word) for word in stage.arguments(pathlib.Path("/out"), 1)]
 
 
 class Plans(unittest.TestCase):
@@ -28,24 +28,24 @@ class Plans(unittest.TestCase):
         planned = self.plan("size")
         self.assertEqual(list(planned), [0.15, 0.25, 0.35, 0.5, 0.8, 1.5])
         for value, (run,) in planned.items():
-            words = words_of(run.map_stage)
-            self.assertEqual(words[words.index("--size-target-kb-per-m") + 1], str(value))
+            arguments = arguments_of(run.map_stage)
+            self.assertEqual(arguments[arguments.index("--size-target-kb-per-m") + 1], str(value))
             run.map_stage.result = pathlib.Path("/map")
-            self.assertEqual(words_of(run.evaluation)[-2:], ["--method", "milepost"])
+            self.assertEqual(arguments_of(run.evaluation)[-2:], ["--method", "milepost"])
 
     def test_calibration_error_localizes_an_altered_drive_on_one_map(self):
         planned = {calibration.name: run for calibration, (run,) in self.plan("calibration-error").items()}
         self.assertEqual(list(planned), ["as recorded", "focal -5 %", "focal +5 %", "yaw 2°"])
         self.assertEqual(len({run.map_stage for run in planned.values()}), 1)
-        self.assertNotIn("--size-target-kb-per-m", words_of(planned["yaw 2°"].map_stage))
+        self.assertNotIn("--size-target-kb-per-m", arguments_of(planned["yaw 2°"].map_stage))
         for run in planned.values():
             for need in run.evaluation.needs:
                 need.result = pathlib.Path("/results") / need.kind
-        drives = {name: words_of(run.evaluation)[words_of(run.evaluation).index("--drive") + 1]
+        drives = {name: arguments_of(run.evaluation)[arguments_of(run.evaluation).index("--drive") + 1]
                   for name, run in planned.items()}
         self.assertEqual(drives["as recorded"], "/drives/a-query")
         self.assertEqual(drives["yaw 2°"], "/results/alter/drive")
-        altered = {name: words_of(run.evaluation.needs[1])[-2:] for name, run in planned.items()
+        altered = {name: arguments_of(run.evaluation.needs[1])[-2:] for name, run in planned.items()
                    if name != "as recorded"}
         self.assertEqual(altered, {
             "focal -5 %": ["--focal-factor", "0.95"], "focal +5 %": ["--focal-factor", "1.05"], "yaw 2°": ["--yaw-deg", "2"]})

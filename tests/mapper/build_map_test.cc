@@ -107,9 +107,9 @@ TEST(BuildMap, TheIndexHoldsEveryLandmarkAndTheReportCountsThem) {
     bytes += frame.size();
   }
   EXPECT_GT(landmarks, 50U);
-  EXPECT_EQ(map.report.tracklets, landmarks);
-  EXPECT_EQ(map.report.tracklet_bytes, bytes);
-  EXPECT_EQ(map.report.tiles, index.size());
+  EXPECT_EQ(map.report.maps.front().tracklets, landmarks);
+  EXPECT_EQ(map.report.maps.front().tracklet_bytes, bytes);
+  EXPECT_EQ(map.report.maps.front().tiles, index.size());
 }
 
 TEST(BuildMap, NoTileOfLandmarksWeighsMoreThanTheTarget) {
@@ -124,7 +124,7 @@ TEST(BuildMap, NoTileOfLandmarksWeighsMoreThanTheTarget) {
     EXPECT_LE(static_cast<double>(entry.bytes),
               100 * std::min(20.0, length_m - 20.0 * entry.index));
   }
-  EXPECT_LT(map.report.tracklet_bytes, BuiltMap().report.tracklet_bytes);
+  EXPECT_LT(map.report.maps.front().tracklet_bytes, BuiltMap().report.maps.front().tracklet_bytes);
 }
 
 TEST(BuildMap, TheSameBytesForAnyNumberOfJobs) {
@@ -189,16 +189,72 @@ Result<BuildReport> built(const std::vector<Drive>& drives, const std::filesyste
 TEST(BuildMap, AFewBitsIn16AreMappedAsAll8) {
   const ChangedStreet eight([](cv::Mat&) {});
   const TempFolder folder;
-  const std::size_t expected = built({eight.drive()}, folder / "8.map")->tracklets;
+  const std::size_t expected = built({eight.drive()}, folder / "8.map")->maps.front().tracklets;
   for (const int bits : {8, 10, 12, 14, 16}) {
     const ChangedStreet street_of_bits(
         [bits](cv::Mat& gray) { gray.convertTo(gray, CV_16U, ((1 << bits) - 1) / 255.0); });
     const auto report = built({street_of_bits.drive()}, folder / "bits.map");
     ASSERT_TRUE(report.ok()) << report.error().line();
-    EXPECT_NEAR(static_cast<double>(report->tracklets), static_cast<double>(expected),
+    EXPECT_NEAR(static_cast<double>(report->maps.front().tracklets), static_cast<double>(expected),
                 0.02 * static_cast<double>(expected))
         << bits << " bits";
   }
+}
+
+// The border lies across the street at its middle; the street leads to the right of it.
+Division across_the_street(const std::filesystem::path& beyond) {
+  const GeoPoint& begin = street().frames.front().position;
+  const GeoPoint& end = street().frames.back().position;
+  const LocalFrame frame(begin);
+  const EnuPoint whole = frame.enu_from_geo(end);
+  const auto at = [&](double left) {
+    return frame.geo_from_enu(
+        {whole.east_m / 2 - left * whole.north_m, whole.north_m / 2 + left * whole.east_m, 0});
+  };
+  return {Border::through(at(-1), at(1)).value(), beyond};
+}
+
+TEST(BuildMap, ABorderDividesTheMapAndItsSegmentsGoOnInTheOther) {
+  const TempFolder folder;
+  BuildSettings settings;
+  settings.division = across_the_street(folder / "east.map");
+  const auto report = built({street()}, folder / "west.map", settings);
+  ASSERT_TRUE(report.ok()) << report.error().line();
+  ASSERT_EQ(report->maps.size(), 2U);
+  const MapReader west = MapReader::open(folder / "west.map").value();
+  const MapReader east = MapReader::open(folder / "east.map").value();
+  ASSERT_THAT(west.segment_ids(), ElementsAre("street-map-0"));
+  ASSERT_EQ(east.segment_ids().size(), 1U);
+  const std::string beyond = east.segment_ids().front();
+  EXPECT_THAT(west.segment("street-map-0")->successors, ElementsAre(Successor{beyond, "east"}));
+  EXPECT_TRUE(east.segment(beyond)->successors.empty());
+  EXPECT_EQ(west.layers(), east.layers());
+  EXPECT_TRUE(west.verify().ok() && east.verify().ok());
+  for (const MapReport& map : report->maps) EXPECT_GT(map.tracklets, 50U) << map.file;
+
+  // Seen from both, nothing is lost at the border.
+  const BuiltMap whole;
+  std::size_t tracklets = 0;
+  for (const MapReport& map : report->maps) tracklets += map.tracklets;
+  EXPECT_GT(tracklets, whole.report.maps.front().tracklets * 9 / 10);
+}
+
+TEST(BuildMap, ABorderThatLeavesAMapNoRoadIsRefused) {
+  const TempFolder folder;
+  BuildSettings settings;
+  settings.division =
+      Division{Border::through({80, 0, 0}, {80, 1, 0}).value(),  // all roads are south of it: right
+               folder / "south.map"};
+  const auto refused = built({street()}, folder / "north.map", settings);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().line(),
+              ::testing::HasSubstr("north.map: all roads lie on the other side of the border"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "south.map"));
+  settings.division = across_the_street(folder / "other" / "north.map");
+  std::filesystem::create_directories(folder / "other");
+  const auto alike = built({street()}, folder / "north.map", settings);
+  ASSERT_FALSE(alike.ok());
+  EXPECT_THAT(alike.error().line(), ::testing::HasSubstr("both maps would have the name 'north'"));
 }
 
 TEST(BuildMap, NothingFoundIsAnErrorAndTheOldMapStays) {
@@ -233,7 +289,7 @@ TEST(BuildMap, ADriveThatGivesNothingIsNamedAmongOthers) {
   const auto allowed = built({street(), dark}, folder / "two.map", settings);
   ASSERT_TRUE(allowed.ok()) << allowed.error().line();
   ASSERT_EQ(allowed->drives.size(), 2U);
-  EXPECT_EQ(allowed->drives[1].tracklets, allowed->tracklets);
+  EXPECT_EQ(allowed->drives[1].tracklets, allowed->maps.front().tracklets);
   EXPECT_GT(allowed->drives[1].features, 1000U);
   EXPECT_EQ(allowed->drives[0].tracklets, 0U);
   EXPECT_EQ(allowed->drives[0].brightest, 0);

@@ -23,7 +23,7 @@ constexpr std::size_t kFrames = 96;  // 187 m: the last tile's stretch is shorte
 
 struct MadeLayer {
   RouteLine line;
-  std::vector<StoredTile> tiles;
+  std::vector<BuiltTile> tiles;
 };
 
 PcaProjection projection() {
@@ -84,7 +84,7 @@ MadeLayer layer_of(double size_target_kb_per_m, const std::vector<double>& cuts_
     builder->add_tracks(ended[i]);
     auto tiles = builder->take_complete(complete_until_m);
     EXPECT_TRUE(tiles.ok());
-    for (StoredTile& tile : *tiles) made.tiles.push_back(std::move(tile));
+    for (BuiltTile& tile : *tiles) made.tiles.push_back(std::move(tile));
   }
   return made;
 }
@@ -96,7 +96,7 @@ TEST(LandmarkLayerBuilder, NoTileWeighsMoreThanItsStretchMay) {
     const MadeLayer made = layer_of(target_kb_per_m);
     ASSERT_GE(made.tiles.size(), 8U);
     double bytes = 0;
-    for (const StoredTile& tile : made.tiles) {
+    for (const BuiltTile& tile : made.tiles) {
       const double stretch_m =
           std::min(kTileLengthM, made.line.length_m() - tile.index * kTileLengthM);
       EXPECT_LE(static_cast<double>(tile.frame.size()), 1000 * target_kb_per_m * stretch_m)
@@ -116,7 +116,7 @@ TEST(LandmarkLayerBuilder, NoTileWeighsMoreThanItsStretchMay) {
 TEST(LandmarkLayerBuilder, EachTileComesOnceWithARangeThatHoldsItsLandmarks) {
   const MadeLayer made = layer_of(0.2);
   std::uint32_t next = 0;
-  for (const StoredTile& tile : made.tiles) {
+  for (const BuiltTile& tile : made.tiles) {
     EXPECT_GE(tile.index, next);
     next = tile.index + 1;
     const Result<LandmarkTile> read = decode_landmarks(tile.frame);
@@ -148,7 +148,7 @@ TEST(LandmarkLayerBuilder, LandmarksLieInTheirTilesFrame) {
   }();
   std::size_t near = 0;
   std::size_t all = 0;
-  for (const StoredTile& tile : layer_of(0.2).tiles) {
+  for (const BuiltTile& tile : layer_of(0.2).tiles) {
     const Result<LandmarkTile> read = decode_landmarks(tile.frame);
     ASSERT_TRUE(read.ok());
     const LocalFrame local(line.point_at(read->origin_m));
@@ -175,7 +175,7 @@ TEST(LandmarkLayerBuilder, SegmentsHoldAsMuchAtTheirCutsAsTheUncutRoad) {
   const auto count_seen = [](const MadeLayer& made, const std::string& id, double from_m,
                              double place_m) {
     std::size_t seen = 0;
-    for (const StoredTile& tile : made.tiles) {
+    for (const BuiltTile& tile : made.tiles) {
       if (tile.segment != id) continue;
       const LandmarkTile read = decode_landmarks(tile.frame).value();
       for (const Landmark& landmark : read.landmarks)
@@ -208,7 +208,7 @@ TEST(LandmarkLayerBuilder, TilesOfACutSegmentLieOnItsOwnLine) {
   std::size_t near = 0;
   std::size_t all = 0;
   std::uint32_t last_index = 0;
-  for (const StoredTile& tile : made.tiles) {
+  for (const BuiltTile& tile : made.tiles) {
     if (tile.segment != "to-130") continue;
     const LandmarkTile read = decode_landmarks(tile.frame).value();
     EXPECT_EQ(read.segment, "to-130");

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import statistics
 import tempfile
 import unittest
 
@@ -53,21 +54,46 @@ class City(CommandTest):
         self.assertEqual(other.read_bytes(), self.map.read_bytes())
 
     def test_a_tour_passes_every_junction_without_a_receiver(self):
-        out = self.folder / "out"
-        with Server(self.maps) as server:
-            self.expect_done(run(CLIENT, "evaluate", "--server", server.url, "--cache", self.folder / "cache", "--drive",
-                                 self.city / "city-1-tour", "--out", out, "--receiver-until-s", "0"))
-        figures, = json.loads((out / "summary.json").read_text())
+        figures = self.evaluated(self.maps, "out")
         self.assertEqual(figures["localized_frames"], figures["frames"])
         self.assertEqual(figures["wrong_segment_frames"], 0)
         self.assertLess(figures["mean_error_m"], 0.02)
         self.assertLess(figures["mean_lateral_error_m"], 0.02)
         self.assertLess(figures["max_distance_m"], 0.9)
         self.assertLess(figures["map_kb_per_m"], 0.485)
-        rows = rows_of(out / "fixes-milepost.csv")
+        rows = rows_of(self.folder / "out" / "fixes-milepost.csv")
         driven = {row["segment"] for row in rows}
         self.assertEqual(driven, {road["id"] for road in self.roads(self.map)})
         self.assertGreater(sum(row["status"] == "tracking" for row in rows), 0.92 * len(rows))
+
+    def test_from_map_to_map_is_as_through_a_junction(self):
+        tour = rows_of(self.city / "city-1-tour" / "gps.csv")
+        longitude_deg = statistics.median(float(row["longitude_deg"]) for row in tour)
+        latitude_deg = float(tour[0]["latitude_deg"])
+        divided = self.folder / "divided"
+        divided.mkdir()
+        border = f"{latitude_deg - 0.1},{longitude_deg},{latitude_deg + 0.1},{longitude_deg}"
+        self.expect_done(self.build_of(self.drives, divided / "west.map", "--border", border, "--beyond", divided / "east.map"))
+        for here, there in (("west", "east"), ("east", "west")):
+            roads = self.roads(divided / f"{here}.map")
+            self.assertIn(there, {successor["map"] for road in roads for successor in road["successors"]})
+        whole, parts = self.evaluated(self.maps, "whole"), self.evaluated(divided, "parts")
+        driven = {row["segment"] for row in rows_of(self.folder / "parts" / "fixes-milepost.csv")}
+        for name in ("west", "east"):
+            self.assertGreater(len(driven & {road["id"] for road in self.roads(divided / f"{name}.map")}), 1, name)
+        self.assertEqual(parts["localized_frames"], parts["frames"])
+        self.assertEqual(parts["wrong_segment_frames"], 0)
+        for figure in ("mean_error_m", "mean_lateral_error_m", "mean_distance_m"):
+            self.assertLess(parts[figure], whole[figure] + 0.002, figure)
+
+    def evaluated(self, maps, name):
+        """The figures of the tour against a server of these maps, with one position at the start."""
+        out = self.folder / name
+        with Server(maps) as server:
+            self.expect_done(run(CLIENT, "evaluate", "--server", server.url, "--cache", self.folder / f"{name}-cache", "--drive",
+                                 self.city / "city-1-tour", "--out", out, "--receiver-until-s", "0"))
+        figures, = json.loads((out / "summary.json").read_text())
+        return figures
 
     def test_without_the_network_beyond_its_drive_it_is_off_the_map(self):
         one = self.folder / "one.map"

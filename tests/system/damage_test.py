@@ -69,7 +69,7 @@ class Damage(CommandTest):
         return [{key: value for key, value in row.items() if key != "latency_ms"} for row in rows_of(self.fixes)]
 
     def expect_true_or_none(self, result, truth):
-        """Either the true fixes, or an error of one line with a mend, and no fix of another place: with a tile less it
+        """Either the true fixes, or an error of one line that says what to do, and no fix of another place: with a tile less it
         may be less sure, and so a little different."""
         places = self.places()
         self.assertEqual(len(places), len(truth))

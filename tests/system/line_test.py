@@ -245,7 +245,7 @@ class Line(CommandTest):
     def test_wheels_carry_on_where_frames_are_black(self):
         self.build_map()
         sigmas_m = []
-        for name in ("with-wheels", "without"):
+        for name in ("with-odometry", "without"):
             self.query = self.copy_of(STREET / "street-query", name)
             frames = rows_of(self.query / "trajectory.csv")
             for row in frames[12:18]:

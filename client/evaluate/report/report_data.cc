@@ -16,6 +16,11 @@ std::string lateral_lead(const Summary& summary) {
          ", 95\u00A0% are within " + metres(summary.lateral_error_m.p95) + ".";
 }
 
+std::string wrong_segment_clause(const Summary& summary) {
+  if (summary.wrong_segment_frames == 0) return "";
+  return ", " + std::to_string(summary.wrong_segment_frames) + " on a wrong segment";
+}
+
 // The result of the reference method in one or two sentences.
 std::string lead(const ReportSeries& series) {
   if (series.methods.empty()) return "No method was evaluated.";
@@ -24,16 +29,31 @@ std::string lead(const ReportSeries& series) {
     return summary.method + " placed none of " + counted(summary.frames, "frame") + " on the map.";
   }
   return summary.method + " placed " + std::to_string(summary.localized_frames) + " of " +
-         counted(summary.frames, "frame") + " on the map. Half of them are within " +
-         metres(summary.p50_error_m) + " of the recorded position, 95\u00A0% within " +
-         metres(summary.p95_error_m) + "; the largest error is " + metres(summary.max_error_m) +
-         "." + lateral_lead(summary);
+         counted(summary.frames, "frame") + " on the map" + wrong_segment_clause(summary) +
+         ". Half of them are within " + metres(summary.p50_error_m) +
+         " of the recorded position, 95\u00A0% within " + metres(summary.p95_error_m) +
+         "; the largest error is " + metres(summary.max_error_m) + "." + lateral_lead(summary);
+}
+
+// The segments with a fix: one by its name, several by their number.
+std::string driven_text(const std::vector<RoadAround>& roads) {
+  std::size_t driven = 0;
+  double length_m = 0;
+  std::string name;
+  for (const RoadAround& road : roads) {
+    if (!road.is_driven) continue;
+    ++driven;
+    length_m += road.length_m;
+    name = road.segment.segment;
+  }
+  if (driven == 0) return "";
+  return (driven == 1 ? name : counted(driven, "segment")) + ", " + number(length_m, 1) + " m";
 }
 
 Facts facts_of(const ReportInput& input) {
   Facts facts = {{"Map", input.map_name}, {"Tiles from", input.map_source}};
-  if (!input.segment.empty()) {
-    facts.emplace_back("Segment", input.segment + ", " + number(input.segment_length_m, 1) + " m");
+  if (const std::string driven = driven_text(input.roads); !driven.empty()) {
+    facts.emplace_back("Driven", driven);
   }
   if (input.drive != nullptr) {
     for (auto& fact : facts_of(*input.drive)) facts.push_back(std::move(fact));

@@ -6,6 +6,7 @@
 
 #include "client/evaluate/evaluation.h"
 #include "client/evaluate/report/report_json.h"
+#include "client/evaluate/roads_around.h"
 #include "schema/drive/drive.h"
 
 namespace milepost {
@@ -14,9 +15,7 @@ struct ReportInput {
   std::string map_name;    // NAME (build BUILD), for the heading
   std::string map_source;  // URL of the server or path of the file
   const Drive* drive = nullptr;
-  std::vector<GeoPoint> segment_line;  // of the segment driven longest; may be empty
-  std::string segment;
-  double segment_length_m = 0;
+  std::vector<RoadAround> roads;          // of the map, around the drive; may be empty
   std::vector<MethodEvaluation> methods;  // of the same drive, one or more
 };
 

@@ -1,4 +1,4 @@
-// The route in plan view: the segment, the recorded path and the fixes.
+// The drive in plan view: the roads and junctions of the map, the recorded path and the fixes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,9 +40,11 @@ std::size_t class_of(double error_m) {
 }
 
 struct PlanView {
-  std::vector<PlanPoint> line;   // of the segment
-  std::vector<PlanPoint> path;   // of the query, one per frame
-  std::vector<PlanPoint> fixes;  // of the reference method, one per fix
+  std::vector<PlanPoint> driven;     // lines of the segments with a fix, each ended by a gap
+  std::vector<PlanPoint> others;     // likewise, of the others
+  std::vector<PlanPoint> junctions;  // ends of segments where ways part or join
+  std::vector<PlanPoint> path;       // of the query, one per frame
+  std::vector<PlanPoint> fixes;      // of the reference method, one per fix
 };
 
 std::optional<GeoPoint> origin_of(const ReportInput& input) {
@@ -51,16 +53,24 @@ std::optional<GeoPoint> origin_of(const ReportInput& input) {
       if (is_valid(frame.position)) return frame.position;
     }
   }
-  for (const GeoPoint& point : input.segment_line) {
-    if (is_valid(point)) return point;
+  for (const RoadAround& road : input.roads) {
+    if (!road.line.empty()) return road.line.front();
   }
   return std::nullopt;
+}
+
+void add_road(PlanView& plan, const LocalFrame& frame, const RoadAround& road) {
+  std::vector<PlanPoint>& lines = road.is_driven ? plan.driven : plan.others;
+  for (const GeoPoint& point : road.line) lines.push_back(on_plan(frame, point));
+  lines.push_back({kNaN, kNaN});
+  if (road.begins_at_junction) plan.junctions.push_back(on_plan(frame, road.line.front()));
+  if (road.ends_at_junction) plan.junctions.push_back(on_plan(frame, road.line.back()));
 }
 
 PlanView plan_view(const ReportInput& input, const ReportSeries& series, const GeoPoint& origin) {
   const LocalFrame frame(origin);
   PlanView plan;
-  for (const GeoPoint& point : input.segment_line) plan.line.push_back(on_plan(frame, point));
+  for (const RoadAround& road : input.roads) add_road(plan, frame, road);
   if (input.drive != nullptr) {
     for (const Frame& each : input.drive->frames) {
       plan.path.push_back(on_plan(frame, each.position));
@@ -73,8 +83,7 @@ PlanView plan_view(const ReportInput& input, const ReportSeries& series, const G
   return plan;
 }
 
-// The area around the drive. Only the part of the segment's line near it is shown: otherwise a
-// short drive on a long segment would be tiny.
+// The area around the drive: of the roads only what is near it, or a short drive would be tiny.
 PlanArea area_of(const PlanView& plan) {
   constexpr double kLeastWidthM = 10;
   constexpr double kLeastHeightShare = 0.3;
@@ -82,13 +91,29 @@ PlanArea area_of(const PlanView& plan) {
   PlanArea area;
   area.include(plan.path);
   area.include(plan.fixes);
-  if (std::isnan(area.east.from)) area.include(plan.line);
+  if (std::isnan(area.east.from)) area.include(plan.driven);
   const double margin_m = 0.06 * std::max(area.east.length(), area.north.length());
   area.east.widen_to(std::max(kLeastWidthM, area.east.length() + 2 * margin_m));
   area.north.widen_to(
       std::max(kLeastHeightShare * area.east.length(), area.north.length() + 2 * margin_m));
   area.east.widen_to(std::max(area.east.length(), area.north.length() / kMostHeightShare));
   return area;
+}
+
+void add_roads(Json& layers, const PlanView& plan) {
+  if (!plan.others.empty()) {
+    Json others = line_layer("other segment", "road", 4, easts(plan.others), norths(plan.others));
+    others["opacity"] = 0.7;
+    layers.push_back(others);
+  }
+  layers.push_back(
+      line_layer("segment driven", "road", 9, easts(plan.driven), norths(plan.driven)));
+}
+
+void add_junctions(Json& layers, const PlanView& plan) {
+  if (plan.junctions.empty()) return;
+  layers.push_back(circles_layer("ways part or join", "ink", "page", 5, 2, easts(plan.junctions),
+                                 norths(plan.junctions)));
 }
 
 // The largest errors are drawn on top.
@@ -152,14 +177,16 @@ Figure map_figure(const ReportInput& input, const ReportSeries& series) {
   const MethodSeries& reference = series.reference_method();
   figure.caption = map_caption(reference);
   const PlanView plan = plan_view(input, series, *origin);
-  Json plot = plan_plot(area_of(plan), "The segment, the recorded path and the fixes in plan view");
+  Json plot = plan_plot(area_of(plan),
+                        "The roads of the map, the recorded path and the fixes in plan view");
   Json& layers = plot["layers"];
-  layers.push_back(line_layer("segment", "road", 9, easts(plan.line), norths(plan.line)));
+  add_roads(layers, plan);
   if (!plan.path.empty()) {
     layers.push_back(line_layer("recorded path", "muted", 1.2, "east_m", "north_m"));
   }
   layers.push_back(frames_without_fix(plan, reference));
   add_fixes(layers, plan, reference);
+  add_junctions(layers, plan);
   add_ends(layers, plan.path);
   figure.plots.push_back(plot);
   return figure;

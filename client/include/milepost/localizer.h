@@ -63,9 +63,15 @@ struct MissingRange {
 
 // The map data held ahead of the latest fix.
 struct MapAhead {
-  double held_m = 0;                  // contiguous length of road held, starting at the fix
+  double held_m = 0;  // contiguous length of road held, starting at the fix, whichever way it turns
   std::vector<MissingRange> missing;  // wanted, but not held
   std::optional<Error> failure;       // why the roads around the vehicle are unknown
+};
+
+// A position on the way that the vehicle is expected to take.
+struct RoutePoint {
+  double latitude_deg = 0;   // [-90, 90], WGS84
+  double longitude_deg = 0;  // [-180, 180], WGS84
 };
 
 struct LocalizerSettings {
@@ -90,6 +96,13 @@ class MILEPOST_PUBLIC Localizer {
   // Errors: invalid_input (not finite, out of range, or out of order): the reading is ignored.
   Status observe(const ReceiverReading& reading);
   Status observe(const OdometryReading& reading);
+
+  // The way that the vehicle is expected to take, in driving order, within 15 m of the road: the
+  // map along it is fetched before that of other branches. It is no evidence of where the vehicle
+  // is, which may leave it. Replaces an earlier route.
+  // Errors: invalid_input (fewer than two points, one out of range, no length): the earlier route
+  // stays.
+  Status expect_route(const std::vector<RoutePoint>& route);
 
   // The fix of the next image.
   // Errors: invalid_input (no image data, an image size other than the camera's, a timestamp that

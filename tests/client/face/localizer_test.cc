@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "tests/support/scripted_server.h"
 #include "tests/support/temp_folder.h"
 
 namespace milepost::vehicle {
@@ -72,6 +73,19 @@ TEST_F(PublicFace, RefusesReadingsThatAreNone) {
   EXPECT_TRUE(localizer->observe(OdometryReading{11, 8, 1}).ok());
 }
 
+TEST_F(PublicFace, RefusesRoutesThatAreNone) {
+  auto localizer = Localizer::open(no_server(), camera());
+  ASSERT_TRUE(localizer.ok());
+  EXPECT_TRUE(localizer->expect_route({{49, 8.4}, {49.01, 8.4}}).ok());
+  const std::vector<std::vector<RoutePoint>> none = {
+      {}, {{49, 8.4}}, {{49, 8.4}, {49, 8.4}}, {{49, 8.4}, {91, 8.4}}, {{49, 8.4}, {kNothing, 8}}};
+  for (const std::vector<RoutePoint>& route : none) {
+    const Status refused = localizer->expect_route(route);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::invalid_input);
+  }
+}
+
 TEST_F(PublicFace, RefusesImagesThatAreNoneAndTimesThatGoBack) {
   auto localizer = Localizer::open(no_server(), camera());
   ASSERT_TRUE(localizer.ok());
@@ -88,7 +102,14 @@ TEST_F(PublicFace, RefusesImagesThatAreNoneAndTimesThatGoBack) {
 }
 
 TEST_F(PublicFace, WaitingForTheMapHasADeadlineAndCanBeCancelled) {
-  auto localizer = Localizer::open(no_server(), camera());
+  testing::ScriptedServer silent_server([](const std::string&) {
+    testing::ScriptedAnswer answer;
+    answer.silent = true;
+    return answer;
+  });
+  ServerSource silent = no_server();
+  silent.url = silent_server.url();
+  auto localizer = Localizer::open(silent, camera());
   ASSERT_TRUE(localizer.ok());
   ASSERT_TRUE(localizer->observe(reading_at(10)).ok());
   Patience none;
@@ -101,7 +122,13 @@ TEST_F(PublicFace, WaitingForTheMapHasADeadlineAndCanBeCancelled) {
   const auto began = std::chrono::steady_clock::now();
   later.cancelled = [&] { return std::chrono::steady_clock::now() > began; };
   EXPECT_EQ(localizer->wait_for_map(10, later).error().code, ErrorCode::cancelled);
-  EXPECT_TRUE(localizer->wait_for_map(10).ok());  // the request has failed
+}
+
+TEST_F(PublicFace, WaitingForTheMapEndsWhenItsRequestHasFailed) {
+  auto localizer = Localizer::open(no_server(), camera());
+  ASSERT_TRUE(localizer.ok());
+  ASSERT_TRUE(localizer->observe(reading_at(10)).ok());
+  EXPECT_TRUE(localizer->wait_for_map(10).ok());
   EXPECT_TRUE(localizer->map_ahead().failure.has_value());
 }
 

@@ -51,6 +51,42 @@ TEST(MapAhead, IsHeldToTheEndOfTheSegmentAtMost) {
   EXPECT_NEAR(map_ahead_of(held, {}, OnSegment{kRoad, 60}).held_m, 40, 0.01);
 }
 
+// The road of 100 m goes on as two branches of 60 m and 200 m, in tiles of 20 m.
+HeldMap parting_road(int tiles_of_long_branch_held) {
+  const LocalFrame frame({49, 8.4, 0});
+  HeldMap held;
+  const auto add = [&](const std::string& id, double from_m, double to_m, double bend,
+                       const std::vector<std::string>& successors, int tiles_held) {
+    std::vector<testing::IndexedTile> tiles;
+    for (double at_m = 0; at_m < to_m - from_m; at_m += 20) tiles.push_back(tile(at_m, at_m + 20));
+    SegmentLayer layer =
+        *testing::layer_of({kRoad.version, id},
+                           *RouteLine::from_vertices({frame.geo_from_enu({0, from_m, 0}),
+                                                      frame.geo_from_enu({bend, to_m, 0})}),
+                           {}, tiles);
+    for (const std::string& next : successors) layer.successors.push_back({next, "town"});
+    HeldSegment segment;
+    segment.layer = std::make_shared<const SegmentLayer>(std::move(layer));
+    for (int index = 0; index < tiles_held; ++index) {
+      const auto at = static_cast<std::uint32_t>(index);
+      segment.tiles[at] = std::make_shared<const DecodedTile>(LandmarkTile{});
+    }
+    held.segments[{kRoad.version, id}] = std::make_shared<const HeldSegment>(std::move(segment));
+  };
+  add("road", 0, 100, 0, {"short", "long"}, 5);
+  add("short", 100, 160, 2, {}, 3);
+  add("long", 100, 300, -2, {}, tiles_of_long_branch_held);
+  return held;
+}
+
+TEST(MapAhead, IsHeldThroughAJunctionOnEveryBranch) {
+  EXPECT_NEAR(map_ahead_of(parting_road(10), {}, OnSegment{kRoad, 60}).held_m, 240, 0.1);
+  EXPECT_NEAR(map_ahead_of(parting_road(2), {}, OnSegment{kRoad, 60}).held_m, 80, 0.1);
+  HeldMap unknown = parting_road(10);
+  unknown.segments.erase({kRoad.version, "long"});
+  EXPECT_NEAR(map_ahead_of(unknown, {}, OnSegment{kRoad, 60}).held_m, 40, 0.1);
+}
+
 TEST(MapAhead, OfAPlaceThatIsNotKnownNothingIsHeld) {
   EXPECT_EQ(map_ahead_of(holed(), {}, std::nullopt).held_m, 0);
   EXPECT_EQ(map_ahead_of(HeldMap(), {}, OnSegment{kRoad, 60}).held_m, 0);

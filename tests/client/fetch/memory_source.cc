@@ -82,7 +82,9 @@ Result<SegmentDescription> MemorySource::segment(const MapVersion& /*version*/,
   note_caller();
   ++document_requests_;
   const std::lock_guard lock(mutex_);
-  return roads_.at(segment).description;
+  const auto found = roads_.find(segment);
+  if (found == roads_.end()) return Error{ErrorCode::not_found, segment, "there is none", ""};
+  return found->second.description;
 }
 
 Result<std::vector<EncodedTile>> MemorySource::tiles(const MapVersion& /*version*/,

@@ -119,6 +119,40 @@ TEST_F(StateOfAProvider, KnowsTheSurroundingsAsFarAsItAsked) {
   EXPECT_FALSE(state_.is_settled());
 }
 
+TEST_F(StateOfAProvider, LooksUpTheBuildsOfNeighbouringMaps) {
+  Wants wants;
+  wants.maps = {"east"};
+  state_.want(wants);
+  EXPECT_FALSE(state_.is_settled());
+  const auto is_catalog_next = [&] {
+    const auto task = state_.next_fetch(now_);
+    return task && std::holds_alternative<AskCatalog>(*task);
+  };
+  ASSERT_TRUE(is_catalog_next());
+  fail_next();
+  EXPECT_TRUE(state_.is_settled());
+  EXPECT_FALSE(is_catalog_next());  // not at once
+  now_ = *state_.next_due(now_);
+  ASSERT_TRUE(is_catalog_next());
+  state_.take(AskCatalog(), {kStateTown}, now_);
+  EXPECT_FALSE(is_catalog_next());  // it is not in the catalog, perhaps later
+  now_ = *state_.next_due(now_);
+  ASSERT_TRUE(is_catalog_next());
+  const MapVersion east = {"east", "7"};
+  state_.take(AskCatalog(), {kStateTown, east}, now_);
+  EXPECT_FALSE(state_.next_fetch(now_).has_value());
+  ASSERT_EQ(state_.held()->current_maps.size(), 1U);
+  EXPECT_EQ(state_.held()->current_maps.at("east"), east);
+
+  // A build that is gone is looked up anew.
+  const SegmentKey beyond = {east, "beyond"};
+  wants.tiles = {{beyond, {0, 10}, 0}};
+  state_.want(wants);
+  fail_next(milliseconds(10), ErrorCode::gone);
+  EXPECT_TRUE(state_.held()->current_maps.empty());
+  EXPECT_TRUE(is_catalog_next());
+}
+
 TEST_F(StateOfAProvider, WhatIsStoredIsReadAndNotFetched) {
   open();
   want({{{50, 70}, 0}});

@@ -73,6 +73,16 @@ TEST(TileProvider, BringsWhatIsWanted) {
   EXPECT_EQ(held->segments_near({place_at(60), 30})->front().segment, "road");
 }
 
+TEST(TileProvider, BringsTheBuildsOfNeighbouringMaps) {
+  TileProvider provider(a_map(), "wisurf", soon_again());
+  Wants wants;
+  wants.maps = {"town"};
+  provider.want(wants);
+  settle(provider);
+  ASSERT_EQ(provider.held()->current_maps.size(), 1U);
+  EXPECT_EQ(provider.held()->current_maps.at("town"), kTown);
+}
+
 TEST(TileProvider, EachDocumentIsReadOnceAndTilesInOneRequest) {
   const auto map = a_map();
   TileProvider provider(map, "wisurf", soon_again());

@@ -22,13 +22,14 @@ RouteLine northwards() {
 // Stays at its initial position.
 class Standing : public SegmentTracker {
  public:
-  Standing(std::shared_ptr<const SegmentLayer> layer, double along_m)
-      : layer_(std::move(layer)), along_m_(along_m) {}
+  Standing(std::shared_ptr<const SegmentLayer> layer, double along_m,
+           std::optional<FullPose> full = std::nullopt)
+      : layer_(std::move(layer)), along_m_(along_m), full_(std::move(full)) {}
   const std::shared_ptr<const SegmentLayer>& layer() const override { return layer_; }
   TrackedPose pose_at(double) const override { return pose(); }
   AlongRange needed(double) const override { return {along_m_, along_m_}; }
   TrackingResult track(SharedFrame&) override { return {}; }
-  TrackedPose pose() const override { return {along_m_, 0.1}; }
+  TrackedPose pose() const override { return {along_m_, 0.1, full_}; }
   std::optional<LearnedCamera> learned_camera() const override {
     return LearnedCamera{{0.05, 0, 0}, Eigen::Matrix3d::Identity()};
   }
@@ -36,6 +37,7 @@ class Standing : public SegmentTracker {
  private:
   std::shared_ptr<const SegmentLayer> layer_;
   double along_m_;
+  std::optional<FullPose> full_;
 };
 
 class Hypotheses : public ::testing::Test {
@@ -113,10 +115,33 @@ TEST_F(Hypotheses, BehindWhereOneWasLeftIsUnlikelySoonAfter) {
   Hypothesis ahead = hypothesis(100.3, 90, 5);
   Hypothesis behind = hypothesis(97, 90, 5);
   ahead.timestamp_s = behind.timestamp_s = 10.2;
-  EXPECT_GT(log_density_after(left, ahead), -1);
-  EXPECT_LT(log_density_after(left, behind), -8);
+  EXPECT_GT(log_bayes_factor_after(left, ahead), -1);
+  EXPECT_LT(log_bayes_factor_after(left, behind), -8);
   behind.timestamp_s = 13;  // it may have turned around
-  EXPECT_GT(log_density_after(left, behind), -1);
+  EXPECT_GT(log_bayes_factor_after(left, behind), -1);
+}
+
+// On another road, where the motion since the map was left says where the vehicle is.
+TEST_F(Hypotheses, WhereTheMotionLeadsIsLikely) {
+  const auto other = testing::layer_of({{}, "other"}, northwards(), {}, {});
+  const auto at = [](const std::shared_ptr<const SegmentLayer>& layer, double east_m,
+                     double heading_deg, double sigma_m) {
+    GeoCameraPose camera;
+    camera.position = LocalFrame({49.0, 8.4, 110}).geo_from_enu({east_m, 50, 0});
+    camera.heading_deg = heading_deg;
+    for (const std::size_t axis : {0, 1, 2}) camera.covariance.at(7 * axis) = sigma_m * sigma_m;
+    camera.covariance[21] = 1;  // square degrees
+    return Hypothesis{std::make_unique<Standing>(layer, 50, FullPose{0, 0.1, camera}),
+                      LogOdds(LogOddsSettings()), GnssLikelihood(GnssLikelihoodSettings()), 10};
+  };
+  const Hypothesis left = at(layer_, 0, 359.8, 2);
+  const double there = log_bayes_factor_after(left, at(other, 1, 0.2, 0.1));
+  EXPECT_GT(there, 1.5);
+  EXPECT_LT(there, 3);  // not enough for a claim by one frame
+  EXPECT_NEAR(log_bayes_factor_after(left, at(other, 4, 359.8, 0.1)), 0, 0.1);  // two sigmas
+  EXPECT_LT(log_bayes_factor_after(left, at(other, 1, 21, 0.1)), -4);
+  EXPECT_EQ(log_bayes_factor_after(left, at(other, 300, 359.8, 0.1)), -4.6);
+  EXPECT_EQ(log_bayes_factor_after(left, hypothesis(50, 90, 5)), -0.0);  // the same segment
 }
 
 TEST_F(Hypotheses, ACheckThatAgreesChangesNothing) {

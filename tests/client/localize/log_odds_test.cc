@@ -41,6 +41,20 @@ TEST(LogOdds, NewViewsCountAsFarAsTheyAreNew) {
   EXPECT_DOUBLE_EQ(odds.log(), once + 3.0 / 4 + 3);
 }
 
+// Landmarks come into sight.
+TEST(LogOdds, EvidenceThatGrowsCountsAsFarAsItIsMore) {
+  LogOdds odds = seen_once(1);
+  odds.add_frame(5, 5, 0);
+  EXPECT_DOUBLE_EQ(odds.log(), seen_once(5).log());
+  odds.add_frame(2, 2, 0);
+  odds.add_frame(5, 5, 0);
+  EXPECT_DOUBLE_EQ(odds.log(), seen_once(5).log());
+  odds.add_frame(1000, 1000, 0);
+  EXPECT_DOUBLE_EQ(odds.log(), seen_once(1000).log());  // one frame is never enough to claim
+  odds.add_frame(5, 5, kOddsSettings.novel_m / 4);
+  EXPECT_DOUBLE_EQ(odds.log(), seen_once(1000).log() + 5.0 / 4);
+}
+
 TEST(LogOdds, WhatSpeaksAgainstCountsWhereverItIsSeen) {
   LogOdds odds = seen_once(6);
   const double once = odds.log();

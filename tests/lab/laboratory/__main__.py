@@ -40,7 +40,7 @@ class Parser(argparse.ArgumentParser):
         raise WrongCall(f"{message}; see tests/lab/run --help")
 
 
-def parse(words):
+def parse(arguments):
     parser = Parser(prog="tests/lab/run", description=DESCRIPTION, epilog=EPILOG,
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("pairs", metavar="PAIRS", help="list of map and query drives")
@@ -59,7 +59,7 @@ def parse(words):
     parser.add_argument("--results", metavar="FILE", type=pathlib.Path,
                         help="Markdown file in which to write, or replace, this list's section")
     parser.add_argument("--check", action="store_true", help=argparse.SUPPRESS)  # of the call only
-    options = parser.parse_intermixed_args(words)
+    options = parser.parse_intermixed_args(arguments)
     if options.jobs < 1:
         raise WrongCall(f"--jobs: {options.jobs} is no number of processes; give 1 or more")
     options.studies = chosen_studies(options.studies)
@@ -68,22 +68,22 @@ def parse(words):
     return options
 
 
-def chosen_studies(words):
-    for word in words:
+def chosen_studies(arguments):
+    for word in arguments:
         if word not in (*STUDIES, "all", "none"):
             raise WrongCall(f"--studies: '{word}' is no study; choose from {', '.join(STUDIES)}, all, none")
-    return [study for study in STUDIES if study in words or "all" in words]
+    return [study for study in STUDIES if study in arguments or "all" in arguments]
 
 
 def shown_command(options):
     """The call as it stands in RESULTS.md: what changes the figures."""
-    words = ["tests/lab/run", options.pairs]
+    arguments = ["tests/lab/run", options.pairs]
     if options.method:
-        words += ["--method", *options.method]
-    words += ["--studies", *(options.studies or ["none"])]
+        arguments += ["--method", *options.method]
+    arguments += ["--studies", *(options.studies or ["none"])]
     if options.situations:
-        words += ["--situations", *options.situations]
-    return shlex.join(words)
+        arguments += ["--situations", *options.situations]
+    return shlex.join(arguments)
 
 
 def timing(stages, seconds):
@@ -117,10 +117,10 @@ def run(options):
     print(f"Report: {out / 'report.html'}")
 
 
-def main(words):
+def main(arguments):
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     try:
-        options = parse(words)
+        options = parse(arguments)
         if options.check:
             read_pairs(options.pairs)
         else:

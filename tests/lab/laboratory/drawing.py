@@ -55,5 +55,5 @@ def dots(x, y, colour_name, radius_px=2, name=None, **look):
     return layer("dots", x, y, name, colour=colour_name, radius_px=radius_px, **look)
 
 
-def texts(x, y, words, align="left", shift_px=(4, 4)):
-    return layer("texts", x, y, text=list(words), align=align, shift_px=list(shift_px))
+def texts(x, y, strings, align="left", shift_px=(4, 4)):
+    return layer("texts", x, y, text=list(strings), align=align, shift_px=list(shift_px))

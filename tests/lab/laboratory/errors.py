@@ -2,7 +2,7 @@
 
 
 class LabError(Exception):
-    """One line for the user: what failed, where, and the mend. Exit code 1."""
+    """One line for the user: what failed, where, and what to do. Exit code 1."""
 
     code = 1
 

@@ -13,21 +13,21 @@ from .tables import Table
 
 EVERY = 7            # frames of a drive one looks
 HERE_M, ELSEWHERE_M = 0.5, 2.0  # nearer, farther than; what lies between is neither
-SAME_PLACE_M = 1.0   # of one frame's sightings
+SAME_PLACE_M = 1.0   # of one frame's relocalizations
 LOGS = (2, 5)        # of factors
 
 
 def plan(planner, pairs):
     """{kind of frames: runs}, to be run."""
-    return {kind: [planner.run(pair, query=as_recorded_or(kind), sightings=EVERY) for pair in pairs] for kind in KINDS}
+    return {kind: [planner.run(pair, query=as_recorded_or(kind), relocalizations=EVERY) for pair in pairs] for kind in KINDS}
 
 
-def sightings_of(run):
+def relocalizations_of(run):
     """(distance in plan from where the frame was taken, log Bayes factor) of each place that a frame was put at."""
     road = next(iter(read_roads(run.map_file).values()))
     positions = read_positions(run.query_drive)
     seen, found = set(), []
-    for row in read_table(run.evaluation.result / "sightings.csv"):
+    for row in read_table(run.evaluation.result / "relocalizations.csv"):
         place = (row["filename"], row["segment"], round(float(row["along_m"]) / SAME_PLACE_M))
         if place in seen:
             continue
@@ -56,7 +56,7 @@ def outcome(planned):
          *((f"above {limit}", "%", 2) for limit in LOGS), ("greatest", "", 1)], groups=1)
     everything = []
     for kind, runs in planned.items():
-        found = np.concatenate([sightings_of(run) for run in runs])
+        found = np.concatenate([relocalizations_of(run) for run in runs])
         everything.append(found)
         add_rows(table, kind, found)
     found = np.concatenate(everything)

@@ -46,7 +46,7 @@ def result_of(runs):
             f"{figures.wrong} of {figures.tracked} frames while found in a wrong place, more than {WRONG_M:.0f} m off")
 
 
-def start_words(recording, off_m, seed):
+def start_arguments(recording, off_m, seed):
     """A known start on a spiral about the true one: as far off as asked for in the mean of squares of each direction."""
     angle = GOLDEN_ANGLE * seed
     away_m = math.sqrt(2) * off_m * np.array([math.sin(angle), math.cos(angle), 0])
@@ -54,9 +54,9 @@ def start_words(recording, off_m, seed):
     return ["--start", f"{latitude_deg:.8f},{longitude_deg:.8f}", "--start-sigma-m", str(off_m)]
 
 
-def run_once(options, words, fixes_csv):
+def run_once(options, arguments, fixes_csv):
     result = subprocess.run(
-        [options.client, "find", "--map", options.map, "--drive", str(options.drive), "--out", str(fixes_csv), *words],
+        [options.client, "find", "--map", options.map, "--drive", str(options.drive), "--out", str(fixes_csv), *arguments],
         capture_output=True, text=True, check=False)
     if result.returncode != 0:
         raise LabError(result.stderr.strip())
@@ -73,25 +73,25 @@ def table_of(runs):
     return table
 
 
-def report_page(options, words, runs):
+def report_page(options, arguments, runs):
     start = "unknown" if options.start_off_m is None else f"known, off by {options.start_off_m:g} m in each direction"
     return report.page(
         f"{options.drive.name}, {len(runs)} runs", f"{result_of(runs).capitalize()}.",
-        [("Map", pathlib.Path(options.map).name), ("Start", start), ("Options of find", " ".join(words) or "none")],
+        [("Map", pathlib.Path(options.map).name), ("Start", start), ("Options of find", " ".join(arguments) or "none")],
         [report.figure("Error over time", error_over_time(runs), CAPTION, stacked=True), report.table(table_of(runs))])
 
 
 def main():
     parser = argparse.ArgumentParser(prog="tests/lab/find", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter,
-                                     epilog="Further words go to milepost-client find: --area, --start, --method, --particles.")
+                                     epilog="Further arguments go to milepost-client find: --area, --start, --method, --particles.")
     parser.add_argument("client", help="the program milepost-client")
     parser.add_argument("map", help="map with a layer of walls")
     parser.add_argument("drive", type=pathlib.Path, help="folder of the drive")
     parser.add_argument("--seeds", type=int, default=10, help="how many runs (default: 10)")
     parser.add_argument("--start-off-m", type=float, help="a known start, off by so much (standard deviation, each way)")
     parser.add_argument("--report", type=pathlib.Path, metavar="FILE.html", help="also write a page with the error over time")
-    options, words = parser.parse_known_args()
+    options, arguments = parser.parse_known_args()
     if options.seeds < 1:
         parser.error("--seeds must be at least 1")
     recording = read_recording(options.drive)
@@ -100,9 +100,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         fixes_csv = pathlib.Path(folder) / "found.csv"
         for seed in range(1, options.seeds + 1):
-            start = [] if options.start_off_m is None else start_words(recording, options.start_off_m, seed)
+            start = [] if options.start_off_m is None else start_arguments(recording, options.start_off_m, seed)
             try:
-                run_once(options, ["--seed", str(seed), *start, *words], fixes_csv)
+                run_once(options, ["--seed", str(seed), *start, *arguments], fixes_csv)
             except LabError as error:
                 sys.exit(str(error))
             runs.append(read_found(fixes_csv, recording))
@@ -110,7 +110,7 @@ def main():
     print(line("all", figures_of(runs)))
     print(result_of(runs))
     if options.report:
-        options.report.write_text(report_page(options, words, runs), encoding="utf-8")
+        options.report.write_text(report_page(options, arguments, runs), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ def as_recorded_or(kind):
 
 
 def plan(planner, pairs, methods, wanted=()):
-    """{Situation: runs}, to be run: of situations whose name begins with one of the wanted words, or of all."""
+    """{Situation: runs}, to be run: of situations whose name begins with one of the names asked for, or of all."""
     methods = [method for method in (paper.OURS,) if method in methods] or list(methods)
     ahead = [pair for pair in pairs if REVERSED not in pair.tags]
     back = [pair for pair in pairs if REVERSED in pair.tags]

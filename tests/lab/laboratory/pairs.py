@@ -1,6 +1,6 @@
 """Lists of map and query drives: the laboratory's input.
 
-A list is a text file, one pair a line: NAME MAP_DRIVE QUERY_DRIVE [TAG...], words apart by blanks or
+A list is a text file, one pair a line: NAME MAP_DRIVE QUERY_DRIVE [TAG...], fields apart by blanks or
 commas, '#' before a comment. Two other lines say where the drives after them are:
 
   drives FOLDER       relative to the list's own folder, which is also the default
@@ -51,28 +51,28 @@ def read_pairs(path):
     pairs = []
     place = Place(folder=path.parent)
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-        words = re.split(r"[,\s]+", line.split("#")[0].strip(" ,\t"))
-        if words == [""]:
+        fields = re.split(r"[,\s]+", line.split("#")[0].strip(" ,\t"))
+        if fields == [""]:
             continue
         where = f"{path}, line {number}"
-        if words[0] == "simulate":
-            place = Place(simulate=tuple(words[1:]))
-        elif words[0] == "drives":
-            place = Place(folder=path.parent / " ".join(words[1:]))
+        if fields[0] == "simulate":
+            place = Place(simulate=tuple(fields[1:]))
+        elif fields[0] == "drives":
+            place = Place(folder=path.parent / " ".join(fields[1:]))
             if not place.folder.is_dir():
                 raise LabError(f"{where}: {place.folder}: no such folder of drives; put the drives "
                                "there or name another folder")
         else:
-            pairs.append(pair_of(words, place, where, pairs))
+            pairs.append(pair_of(fields, place, where, pairs))
     if not pairs:
         raise WrongCall(f"{path}: holds no pair; write 'NAME MAP_DRIVE QUERY_DRIVE' on a line")
     return pairs
 
 
-def pair_of(words, place, where, earlier):
-    if len(words) < 3:
-        raise WrongCall(f"{where}: a pair is NAME MAP_DRIVE QUERY_DRIVE [TAG...], not '{' '.join(words)}'")
-    pair = Pair(words[0], place, words[1], words[2], frozenset(words[3:]))
+def pair_of(fields, place, where, earlier):
+    if len(fields) < 3:
+        raise WrongCall(f"{where}: a pair is NAME MAP_DRIVE QUERY_DRIVE [TAG...], not '{' '.join(fields)}'")
+    pair = Pair(fields[0], place, fields[1], fields[2], frozenset(fields[3:]))
     if not NAME.fullmatch(pair.name):
         raise WrongCall(f"{where}: '{pair.name}' cannot name a pair; use letters, digits, '-', '_' and '.'")
     if any(other.name == pair.name for other in earlier):

@@ -13,7 +13,7 @@ PROJECT = pathlib.Path(__file__).resolve().parents[3]
 ALTER_DRIVE = pathlib.Path(__file__).with_name("altered_drive.py")
 STARTS = pathlib.Path(__file__).with_name("starts.py")
 BUILT = {"milepost-mapper": "mapper", "milepost-client": "client", "milepost-simulator": "tests/simulator",
-         "milepost-sightings": "tests/lab"}
+         "milepost-relocalizations": "tests/lab"}
 
 
 def program(name):
@@ -55,10 +55,10 @@ def name_with(name, settings):
 
 @dataclasses.dataclass(frozen=True)
 class Alteration:
-    """What is altered in a drive: words of altered_drive.py, and another drive below a place for its --onto."""
+    """What is altered in a drive: arguments of altered_drive.py, and another drive below a place for its --onto."""
 
     name: str
-    words: tuple[str, ...] = ()
+    arguments: tuple[str, ...] = ()
     onto: tuple | None = None  # (Place, path)
 
 
@@ -98,16 +98,16 @@ class Planner:
         self.planned = {}
 
     def run(self, pair, mapper_settings=(), methods=None, estimates=False, query=AS_RECORDED, map_drive=AS_RECORDED,
-            map_of=None, starts=False, sightings=0):
-        """`mapper_settings` are words of `milepost-mapper build`; `methods` are the planner's by default. `map_of`:
-        another pair, whose map it is. `starts`: the query is driven in pieces, as starts.py says. `sightings`: not driven
+            map_of=None, starts=False, relocalizations=0):
+        """`mapper_settings` are arguments of `milepost-mapper build`; `methods` are the planner's by default. `map_of`:
+        another pair, whose map it is. `starts`: the query is driven in pieces, as starts.py says. `relocalizations`: not driven
         at all, but one frame in so many is looked with everywhere on the map."""
         mapping = self.map(map_of or pair, tuple(mapper_settings), map_drive)
         needs, find_query = self.drive(pair.place, pair.query_drive, query)
         name = name_with(pair.name, mapper_settings)
         chosen = tuple(methods or self.methods)
-        if sightings:
-            evaluation = self.sightings(pair, name, mapping, sightings, needs, find_query)
+        if relocalizations:
+            evaluation = self.relocalizations(pair, name, mapping, relocalizations, needs, find_query)
         elif starts:
             evaluation = self.starts(pair, name, mapping, chosen, needs, find_query)
         else:
@@ -139,8 +139,8 @@ class Planner:
 
         def plan():
             return Stage(
-                "alter", name_with(pathlib.PurePath(path).name, alteration.words), ALTER_DRIVE, alteration.words,
-                lambda out, threads: [drive(), out / "drive", *alteration.words, *(["--onto", onto()] if onto else [])],
+                "alter", name_with(pathlib.PurePath(path).name, alteration.arguments), ALTER_DRIVE, alteration.arguments,
+                lambda out, threads: [drive(), out / "drive", *alteration.arguments, *(["--onto", onto()] if onto else [])],
                 lambda: [drive(), *([onto()] if onto else [])], (*needs, *more_needs))
         return self.once(("alter", place, path, alteration), plan)
 
@@ -153,13 +153,13 @@ class Planner:
                 lambda: [mapping.result / "drive.map", drive()], (mapping, *needs))
         return self.once(("evaluate", pair, mapping, methods, flags, needs), plan)
 
-    def sightings(self, pair, name, mapping, every, needs, drive):
+    def relocalizations(self, pair, name, mapping, every, needs, drive):
         def plan():
             return Stage(
-                "sightings", name, program("milepost-sightings"), (str(every),),
-                lambda out, threads: [mapping.result / "drive.map", drive(), every, out / "sightings.csv"],
+                "relocalizations", name, program("milepost-relocalizations"), (str(every),),
+                lambda out, threads: [mapping.result / "drive.map", drive(), every, out / "relocalizations.csv"],
                 lambda: [mapping.result / "drive.map", drive()], (mapping, *needs))
-        return self.once(("sightings", pair, mapping, every, needs), plan)
+        return self.once(("relocalizations", pair, mapping, every, needs), plan)
 
     def starts(self, pair, name, mapping, methods, needs, drive):
         def plan():

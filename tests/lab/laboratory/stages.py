@@ -48,8 +48,8 @@ class Stage:
     name: str
     program: pathlib.Path
     settings: tuple[str, ...]  # the options that change the result
-    # (folder to fill, threads to use) -> the words after the program
-    words: typing.Callable[[pathlib.Path, int], list]
+    # (folder to fill, threads to use) -> the arguments after the program
+    arguments: typing.Callable[[pathlib.Path, int], list]
     inputs: typing.Callable[[], list] = list  # files and folders read; asked for once `needs` are done
     needs: tuple["Stage", ...] = ()
     result: pathlib.Path | None = None  # the folder, once the stage is done
@@ -128,25 +128,25 @@ class Cache:
 
     def make(self, stage, key, folder, threads):
         partial = pathlib.Path(tempfile.mkdtemp(prefix=PARTIAL, dir=self.folder))
-        words = [str(word) for word in (stage.program, *stage.words(partial, threads))]
+        arguments = [str(word) for word in (stage.program, *stage.arguments(partial, threads))]
         began = time.monotonic()
-        processor_seconds = self.call(stage, words, partial / LOG)
+        processor_seconds = self.call(stage, arguments, partial / LOG)
         if self.key(stage, digest_of_files) != key:
             raise LabError(f"{stage.kind} {stage.name}: the program or what it reads changed while it ran; call again")
         self.say(f"{stage.kind} {stage.name}: {time.monotonic() - began:.0f} s")
-        record = {"command": words, "processor_seconds": round(processor_seconds, 3)}
+        record = {"command": arguments, "processor_seconds": round(processor_seconds, 3)}
         (partial / RECORD).write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
         partial.rename(folder)
 
-    def call(self, stage, words, log):
+    def call(self, stage, arguments, log):
         """Runs the command to its end; returns the processor seconds it took."""
         if self.stopped:
             raise LabError("stopped")
         with log.open("w") as output:
             try:
-                process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=output, stderr=output)
+                process = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=output, stderr=output)
             except OSError as error:
-                raise LabError(f"{words[0]}: cannot be run ({error.strerror}); build it anew") from None
+                raise LabError(f"{arguments[0]}: cannot be run ({error.strerror}); build it anew") from None
         self.running.add(process)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)

@@ -17,8 +17,8 @@ EVERY = 12    # frames a piece begins
 
 
 def evaluate(client, map_file, drive, out, methods):
-    words = [client, "evaluate", "--map", map_file, "--drive", drive, "--out", out, "--method", *methods]
-    done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    command = [client, "evaluate", "--map", map_file, "--drive", drive, "--out", out, "--method", *methods]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(done.stderr.strip().splitlines()[-1])
 

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mapper/network/geocentric.h"
 #include "schema/base/ids.h"
 #include "tests/mapper/network/drawn_roads.h"
 
@@ -224,6 +225,76 @@ constexpr const char* kCrossing = R"(
                      |
                      |
                      s)";
+
+// The network of roads drawn, divided by a line from south to north that is `east_m` from the left.
+MadeNetwork divided_network(const std::string& drawing, const std::vector<DrawnDrive>& drives,
+                            double east_m) {
+  const DrawnRoads roads(drawing);
+  NetworkSettings settings = without_overlap();
+  settings.junction.border =
+      Border::through(DrawnRoads::geo_of({east_m, -100}, 0), DrawnRoads::geo_of({east_m, 100}, 0))
+          .value();
+  std::vector<NamedDrivenLines> lines;
+  lines.reserve(drives.size());
+  for (const DrawnDrive& drive : drives) lines.push_back(drawn_lines(roads.drive(drive)));
+  return network_of(std::move(lines), settings);
+}
+
+std::vector<std::pair<std::string, bool>> sides_of(const MadeNetwork& made) {
+  std::vector<std::pair<std::string, bool>> sides;
+  for (const NetworkSegment& segment : made.network.segments)
+    sides.emplace_back(segment.id, segment.is_beyond_border);
+  return sides;
+}
+
+TEST(RoadNetwork, ABorderCutsTheRoadsThatCrossIt) {
+  using ::testing::Pair;
+  constexpr const char* kRoad = "w------------------------------e";  // 124 m
+  const MadeNetwork made = divided_network(kRoad, {{"a", "w e"}, {"b", "w:2 e"}, {"c", "e w"}}, 60);
+  ASSERT_THAT(sides_of(made), ElementsAre(Pair("a-0", false), Pair("a-60", true), Pair("c-0", true),
+                                          Pair("c-65", false)));
+  EXPECT_THAT(made.pass_names(made.network.segments[1]), ElementsAre("a", "b"));
+  EXPECT_THAT(made.network.segments[0].successors, ElementsAre("a-60"));
+  EXPECT_THAT(made.network.segments[2].successors, ElementsAre("c-65"));
+  EXPECT_THAT(sides_of(divided_network(kRoad, {{"a", "w e"}}, -50)),
+              ElementsAre(Pair("a-0", true)));
+}
+
+TEST(RoadNetwork, ABorderBesideAJunctionCutsThere) {
+  using ::testing::Pair;
+  constexpr const char* kParting = R"(
+                            .---n
+                        .---
+    w------------------x--------------e)";
+  const std::vector<DrawnDrive> drives = {{"a", "w x e"}, {"b", "w x n"}};
+  const MadeNetwork whole = divided_network(kParting, drives, 1000);
+  ASSERT_EQ(whole.network.segments.size(), 3U);
+  const double junction_m =
+      DrawnRoads::plan_of(whole.line(whole.network.segments[0]).vertices.back()).east_m;
+  const MadeNetwork made = divided_network(kParting, drives, junction_m - 6);
+  EXPECT_THAT(sides_of(made), ElementsAre(Pair(whole.network.segments[0].id, false),
+                                          Pair(whole.network.segments[1].id, true),
+                                          Pair(whole.network.segments[2].id, true)));
+}
+
+TEST(RoadNetwork, ABorderLeadsThroughItsPoints) {
+  const GeoPoint from = {49, 8.4, 0};
+  const LocalFrame frame(from);
+  const auto is_left = [&](double east_m, double north_m) {
+    const Border border = Border::through(from, frame.geo_from_enu({300, 200, 0})).value();
+    return border.has_left(geocentric(frame.geo_from_enu({east_m, north_m, 0})));
+  };
+  EXPECT_TRUE(is_left(150, 100.5));
+  EXPECT_FALSE(is_left(150, 99.5));
+  EXPECT_TRUE(is_left(3000, 2001));
+  EXPECT_FALSE(is_left(3000, 1999));
+}
+
+TEST(RoadNetwork, ABorderNeedsTwoPlaces) {
+  EXPECT_EQ(Border::through({49, 8, 0}, {49, 8.000001, 0}).error().code, ErrorCode::invalid_input);
+  EXPECT_FALSE(Border::through({49, 8, 0}, {91, 8, 0}).ok());
+  EXPECT_TRUE(Border::through({49, 8, 0}, {49, 8.1, 0}).ok());
+}
 
 TEST(RoadNetwork, RoadsThatCrossAreNotLinked) {
   expect_as_drawn(kCrossing, {{"a", "w x e"}, {"b", "s x n"}}, 2);

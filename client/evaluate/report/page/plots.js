@@ -1,6 +1,6 @@
 // Plots: translates the layers of the data to the charting library. Layers are ordered from back to front.
 
-const LEFT_PX = 52, RIGHT_PX = 12, AROUND_PX = 80;  // margins for axis labels
+const LEFT_PX = 52, RIGHT_PX = 20, AROUND_PX = 80;  // margins for axis labels
 const LANE_PX = 9;
 const STATUS = {  // styles that differ in more than colour
   initializing: {colour: 'muted', width_px: 5, opacity: 0.4}, predicted: {colour: 'muted', width_px: 2}, lost: {colour: 'ink', width_px: 5},

@@ -129,7 +129,7 @@ TEST(ReportData, HeadSaysWhatWasEvaluated) {
   EXPECT_EQ(page["kind"], "evaluation");
   EXPECT_EQ(page["title"], "query");
   EXPECT_EQ(page["facts"], Json::parse(R"json([["Map","town (build 4f1c9a2b)"],
-    ["Tiles from","http://127.0.0.1:8080"],["Segment","s1, 20.0 m"],["Captured","2011-09-30"],
+    ["Tiles from","http://127.0.0.1:8080"],["Driven","s1, 20.0 m"],["Captured","2011-09-30"],
     ["Frames","20 in 1.9 s, 600 × 500 pixels"],["Recording",""],["Licence",""]])json"));
   EXPECT_THAT(page["lead"].get<std::string>(), HasSubstr("Half of them are within 0.060\u00A0m"));
   EXPECT_THAT(page["lead"].get<std::string>(), HasSubstr("95\u00A0% within 0.21\u00A0m"));
@@ -242,6 +242,37 @@ TEST(ReportData, ThePlanIsOfOneScaleAndHasADotAFix) {
   EXPECT_NEAR(without["y"][0].get<double>(), 0.6 * 7, 1e-2);
 }
 
+TEST(ReportData, ThePlanHasTheNetworkAndItsJunctions) {
+  const Drive drive = straight_drive(20);
+  ReportInput input = report_input(drive, {evaluation("milepost", drive, small_errors(20, 0.04))});
+  RoadAround exit = input.roads.front();
+  exit.segment.segment = "s2";
+  exit.is_driven = false;
+  exit.line.resize(5);
+  input.roads.push_back(exit);
+  input.roads.front().ends_at_junction = true;
+  const Json page = report_data(input);
+  const Json figure = part_of(page, "On the map");
+  EXPECT_EQ(page["facts"][2], Json::parse(R"(["Driven","s1, 20.0 m"])"));
+  const Json driven = layers_of(figure, "line", "segment driven").at(0);
+  EXPECT_EQ(driven["x"].size(), 21U);
+  EXPECT_TRUE(driven["x"].back().is_null());  // no line leads to the next segment
+  EXPECT_EQ(layers_of(figure, "line", "other segment").at(0)["x"].size(), 6U);
+  const Json junctions = layers_of(figure, "dots", "ways part or join").at(0);
+  EXPECT_EQ(junctions["x"], Json::array({driven["x"][19]}));
+  input.roads.back().is_driven = true;
+  EXPECT_EQ(report_data(input)["facts"][2], Json::parse(R"(["Driven","2 segments, 40.0 m"])"));
+}
+
+TEST(ReportData, FixesOnAWrongSegmentAreSaidFirst) {
+  const Drive drive = straight_drive(20);
+  MethodEvaluation method = evaluation("milepost", drive, small_errors(20, 0.04));
+  EXPECT_THAT(data_of(drive, {method})["lead"].get<std::string>(), Not(HasSubstr("wrong")));
+  method.summary.wrong_segment_frames = 3;
+  EXPECT_THAT(data_of(drive, {method})["lead"].get<std::string>(),
+              HasSubstr("milepost placed 20 of 20 frames on the map, 3 on a wrong segment."));
+}
+
 TEST(ReportData, PositionsThatAreNoneLeaveThePlanAsItIs) {
   Drive drive = straight_drive(101);
   const ReportInput input =
@@ -331,7 +362,7 @@ TEST(ReportData, WithoutDriveMethodsOrPositionsIsStillAPage) {
   ReportInput no_drive = report_input(drive, {method});
   no_drive.drive = nullptr;
   ReportInput no_line = no_drive;
-  no_line.segment_line.clear();
+  no_line.roads.clear();
   ReportInput lost_positions = report_input(drive, {method});
   lost_positions.drive = &nowhere;
   for (const ReportInput& input :
@@ -358,7 +389,7 @@ TEST(ReportData, WhereNothingIsKnownNothingIsDrawn) {
   for (EvaluatedFix& fix : method.fixes) fix.truth_along_m = std::nullopt;
   ReportInput input = report_input(drive, {method});
   input.drive = nullptr;
-  input.segment_line.clear();
+  input.roads.clear();
   EXPECT_EQ(empty_figures(report_data(input)), 6);
 }
 

@@ -91,9 +91,12 @@ ReportInput report_input(const Drive& drive, std::vector<MethodEvaluation> metho
   input.map_name = "town (build 4f1c9a2b)";
   input.map_source = "http://127.0.0.1:8080";
   input.drive = &drive;
-  for (const Frame& frame : drive.frames) input.segment_line.push_back(frame.position);
-  input.segment = "s1";
-  input.segment_length_m = static_cast<double>(drive.frames.size());
+  RoadAround road;
+  road.segment = {{"town", "4f1c9a2b"}, "s1"};
+  road.length_m = static_cast<double>(drive.frames.size());
+  for (const Frame& frame : drive.frames) road.line.push_back(frame.position);
+  road.is_driven = true;
+  input.roads.push_back(std::move(road));
   input.methods = std::move(methods);
   return input;
 }

@@ -57,7 +57,7 @@ TEST(ReportPage, NamesCannotBecomeMarkup) {
   for (Frame& frame : drive.frames) frame.filename = hostile;
   ReportInput input = report_input(drive, {evaluation(hostile, drive, {0.01, kNaN, 0.03}),
                                            evaluation(hostile, drive, {0.01, 9, 0.03})});
-  input.map_name = input.map_source = input.segment = hostile;
+  input.map_name = input.map_source = input.roads.front().segment.segment = hostile;
   const std::string page = report_page(report_data(input));
   const std::string data = embedded(page);
   EXPECT_EQ(data.find('<'), std::string::npos);

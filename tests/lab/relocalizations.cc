@@ -1,8 +1,8 @@
-// What single frames say for places all over a map, theirs and others: how the evidence of
-// client/localize/place_evidence.h holds on drives (schema/DECISIONS.md, 31).
-// usage: milepost-sightings MAP DRIVE EVERY OUT.csv
-// Looks with each EVERYth frame about each sixth metre of each segment, as a start does, and writes
-// a row for each place it puts the camera at.
+// The log Bayes factors of single frames for places all over a map, theirs and others: how those of
+// client/localize/landmark_support.h hold on drives (schema/DECISIONS.md, 31).
+// usage: milepost-relocalizations MAP DRIVE EVERY OUT.csv
+// Relocalizes each EVERYth frame around each sixth metre of each segment, as a start does, and
+// writes a row for each candidate pose.
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -25,7 +25,7 @@ constexpr double kSpacingM = 6;
 constexpr double kReachM = 8;  // of a look, to either side
 
 int fail(const Error& error) {
-  std::fprintf(stderr, "milepost-sightings: %s\n", error.line().c_str());
+  std::fprintf(stderr, "milepost-relocalizations: %s\n", error.line().c_str());
   return 1;
 }
 
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   const std::string_view word = argc == 5 ? argv[3] : "";
   if (std::from_chars(word.data(), word.data() + word.size(), every).ec != std::errc() ||
       every == 0) {
-    std::fprintf(stderr, "usage: milepost-sightings MAP DRIVE EVERY OUT.csv\n");
+    std::fprintf(stderr, "usage: milepost-relocalizations MAP DRIVE EVERY OUT.csv\n");
     return 2;
   }
   const Result<Drive> drive = read_drive(argv[2]);

@@ -1,0 +1,89 @@
+#include "mapper/pipeline/divided_map.h"
+
+#include "mapper/pipeline/layers.h"
+
+namespace milepost {
+
+Result<DividedMap> DividedMap::create(const BuildPlan& plan, const std::filesystem::path& map_file,
+                                      const std::optional<Division>& division) {
+  DividedMap map;
+  std::vector<std::filesystem::path> files = {map_file};
+  if (division) files.push_back(division->beyond);
+  if (division && map_file.stem() == division->beyond.stem()) {
+    return Error{ErrorCode::invalid_input, division->beyond.string(),
+                 "both maps would have the name '" + map_file.stem().string() + "'",
+                 "give the files different names: successors name the map that they are in"};
+  }
+  for (const std::filesystem::path& file : files) {
+    Result<MapWriter> writer = MapWriter::create(file);
+    if (!writer) return writer.error();
+    map.sides_.push_back({std::move(*writer), {.file = file}});
+  }
+  if (division) map.beyond_border_ = plan.beyond_border;
+  if (const Status added = map.add_segments(plan); !added.ok()) return added.error();
+  for (const Side& side : map.sides_) {
+    if (side.report.segments > 0) continue;
+    return Error{ErrorCode::invalid_input, side.report.file.string(),
+                 "all roads lie on the other side of the border",
+                 "give a border between the roads, or leave it out"};
+  }
+  return map;
+}
+
+Status DividedMap::add_segments(const BuildPlan& plan) {
+  for (StoredSegment segment : plan.segments) {
+    Side& side = side_of(segment.id);
+    for (Successor& successor : segment.successors) {
+      const Side& there = side_of(successor.segment);
+      if (&there != &side) successor.map = there.report.file.stem().string();
+    }
+    if (const Status added = side.writer.add_segment(segment); !added.ok()) return added;
+    ++side.report.segments;
+    side.report.length_m += segment.length_m;
+  }
+  return ok_status();
+}
+
+DividedMap::Side& DividedMap::side_of(const std::string& segment) {
+  return beyond_border_.contains(segment) ? sides_.back() : sides_.front();
+}
+
+Status DividedMap::set_feature_json(const std::string& json) {
+  for (Side& side : sides_) {
+    if (const Status set = side.writer.set_feature_json(json); !set.ok()) return set;
+  }
+  return ok_status();
+}
+
+Status DividedMap::add_layer(const std::string& name, const std::string& parameters_json) {
+  for (Side& side : sides_) {
+    const Status added = side.writer.add_layer(name, parameters_json);
+    if (!added.ok()) return added;
+  }
+  return ok_status();
+}
+
+Status DividedMap::add_tile(const std::string& layer, const BuiltTile& tile) {
+  Side& side = side_of(tile.segment);
+  const Status added =
+      side.writer.add_tile(tile.segment, layer, tile.index, tile.along, tile.items, tile.frame);
+  if (!added.ok()) return added;
+  ++side.report.tiles;
+  if (layer != layers::kLandmarks) return ok_status();
+  side.report.tracklets += tile.items;
+  side.report.tracklet_bytes += tile.frame.size();
+  return ok_status();
+}
+
+Result<std::vector<MapReport>> DividedMap::finish() {
+  std::vector<MapReport> reports;
+  for (Side& side : sides_) {
+    Result<std::string> build = side.writer.finish();
+    if (!build) return build.error();
+    side.report.build = *build;
+    reports.push_back(side.report);
+  }
+  return reports;
+}
+
+}  // namespace milepost
