@@ -1,7 +1,7 @@
 # All of these are Debian 12 packages, listed in deploy/packages.txt.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d flann)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d flann calib3d)
 find_package(JPEG REQUIRED)  # OpenCV's decoder, called directly to check that frames are complete
 find_package(PNG REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)

@@ -4,6 +4,7 @@
 
 #include "mapper/network/driven_line.h"
 #include "mapper/pipeline/pass_choice.h"
+#include "mapper/pipeline/pass_comparison.h"
 
 namespace milepost {
 namespace {
@@ -81,9 +82,13 @@ Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettin
   PassChoice choice(*sorted, lines, settings, jobs);
   NetworkSettings of_network;
   if (settings.division) of_network.junction.border = settings.division->border;
+  PassComparison comparison(*sorted, lines, settings, jobs);
   const RoadNetwork network = road_network(
-      lines, of_network, [&](const std::vector<Pass>& passes) { return choice.best(passes); });
-  if (choice.failure()) return *choice.failure();
+      lines, of_network, [&](const std::vector<Pass>& passes) { return choice.best(passes); },
+      [&](const Pass& a, const Pass& b) { return comparison.show_the_same_road(a, b); });
+  for (const std::optional<Error>& failure : {choice.failure(), comparison.failure()}) {
+    if (failure) return *failure;
+  }
 
   BuildPlan plan;
   plan.findings = network.findings;

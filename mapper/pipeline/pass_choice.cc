@@ -3,33 +3,13 @@
 #include <algorithm>
 
 #include "mapper/pipeline/frame_pipeline.h"
+#include "mapper/pipeline/pass_frames.h"
 
 namespace milepost {
 namespace {
 
 constexpr std::size_t kPassFrames = 4;  // of a pass that are looked at
 constexpr double kAboutEqual = 0.95;    // of the features of the richest
-
-// The frames of a pass, or the nearest one of a pass between two frames.
-std::vector<std::size_t> frames_on(const Pass& pass, const DrivenLine& driven) {
-  std::vector<std::size_t> frames;
-  const std::vector<double>& along_m = driven.line.along_m();
-  for (std::size_t i = 0; i < along_m.size(); ++i) {
-    if (along_m[i] >= pass.from_m && along_m[i] <= pass.to_m) frames.push_back(driven.frames[i]);
-  }
-  if (!frames.empty()) return frames;
-  const auto next = std::ranges::lower_bound(along_m, pass.from_m);
-  return {driven.frames[std::min<std::size_t>(static_cast<std::size_t>(next - along_m.begin()),
-                                              driven.frames.size() - 1)]};
-}
-
-std::vector<std::size_t> spread_evenly(const std::vector<std::size_t>& frames) {
-  std::vector<std::size_t> some;
-  const std::size_t count = std::min(frames.size(), kPassFrames);
-  for (std::size_t i = 0; i < count; ++i)
-    some.push_back(frames[(2 * i + 1) * frames.size() / (2 * count)]);
-  return some;
-}
 
 }  // namespace
 
@@ -65,7 +45,7 @@ std::size_t PassChoice::richest(const std::vector<Pass>& passes) {
 PassChoice::Quality PassChoice::quality_of(const Pass& pass) {
   const DrivenLine& driven = lines_[pass.drive].lines[pass.stretch];
   const std::vector<std::size_t> all = frames_on(pass, driven);
-  const std::vector<std::size_t> some = spread_evenly(all);
+  const std::vector<std::size_t> some = spread_evenly(all, kPassFrames);
   FeatureParameters every = settings_.feature;
   every.max_features = 0;  // or good frames would all be equal
   FramePipeline frames(*drives_[pass.drive], some, every, false, jobs_);

@@ -12,6 +12,7 @@ namespace milepost {
 namespace {
 
 constexpr double kStartRefineM = 3;  // half width around the start, for the second pass
+constexpr int kByChance = 12;        // inliers of a start in a wrong place
 
 class TrackletTracker : public SegmentTracker {
  public:
@@ -32,6 +33,7 @@ class TrackletTracker : public SegmentTracker {
     continued->begin_m_ = begin_m_ + begin_m;
     continued->tracker_ = tracker_->clone();
     continued->likelihood_ = likelihood_;
+    continued->likelihood_.pass_junction();
     return continued;
   }
 
@@ -68,7 +70,7 @@ class TrackletTracker : public SegmentTracker {
     result.failure = covered_.failure;
     result.measured = tracker_->advance(frame.timestamp_s(), measured);
     result.matches = result.measured ? measured->support : 0;
-    result.log_bayes_factor = likelihood_.of_frame(result.measured);
+    result.log_bayes_factor = likelihood_.of_frame(result.measured, result.matches);
     return result;
   }
 
@@ -131,7 +133,8 @@ class TrackletRelocalizer : public Relocalizer {
     found.failure = tracker->failure();
     if (begun) {
       found.candidates.push_back(
-          {std::move(tracker), *begun, std::min<double>(*begun, PaperLikelihood::kLogBayesFactor)});
+          {std::move(tracker), *begun,
+           std::min<double>(*begun - kByChance, PaperLikelihood::kLogBayesFactor)});
     }
     return found;
   }

@@ -63,6 +63,7 @@ class WarpTracker : public SegmentTracker {
     continued->path_costs_ = path_costs_;
     continued->latest_s_ = latest_s_;
     continued->likelihood_ = likelihood_;
+    continued->likelihood_.pass_junction();
     return continued;
   }
 
@@ -95,13 +96,14 @@ class WarpTracker : public SegmentTracker {
     const Comparison seen = compare(frame, needed(frame.timestamp_s()));
     WarpRow next = next_row(row_, seen.costs, max_step_m(frame.timestamp_s()));
     if (!seen.compared || next.empty()) {
-      return {.log_bayes_factor = likelihood_.of_frame(false), .failure = covered_.failure};
+      return {.log_bayes_factor = likelihood_.of_frame(false, 0), .failure = covered_.failure};
     }
     row_ = std::move(next);
     normalize_costs(frame.timestamp_s());
+    const int matches = matches_at_best(seen);
     return {.measured = true,
-            .matches = matches_at_best(seen),
-            .log_bayes_factor = likelihood_.of_frame(true),
+            .matches = matches,
+            .log_bayes_factor = likelihood_.of_frame(true, matches),
             .failure = covered_.failure};
   }
 
