@@ -31,8 +31,8 @@ class PaperLikelihood {
  private:
   static constexpr int kFirstFrames = 3;
   static constexpr double kFollowing = 1;
-  static constexpr int kBranchFrames = 40;   // from a junction on
-  static constexpr double kUsualPart = 0.25; // of the usual matches, that is neutral on a branch
+  static constexpr int kBranchFrames = 40;    // from a junction on
+  static constexpr double kUsualPart = 0.25;  // of the usual matches, that is neutral on a branch
   static constexpr double kPerMatch = 0.2;
   static constexpr double kMaxAgainst = 3;
   static constexpr double kLearned = 0.05;  // of the usual matches, from each frame

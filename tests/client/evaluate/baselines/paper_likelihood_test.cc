@@ -26,10 +26,10 @@ TEST(PaperLikelihood, BeyondAJunctionFewMatchesSpeakAgainstTheBranch) {
   PaperLikelihood right = on_a_road(60);
   right.pass_junction();
   EXPECT_GT(right.of_frame(true, 55), 4);
-  EXPECT_NEAR(right.of_frame(true, 30), 0, 0.1);
+  EXPECT_NEAR(right.of_frame(true, 15), 0, 0.1);
   PaperLikelihood wrong = on_a_road(60);
   wrong.pass_junction();
-  for (int frame = 0; frame < 30; ++frame) EXPECT_LT(wrong.of_frame(true, 12), -2) << frame;
+  for (int frame = 0; frame < 30; ++frame) EXPECT_LT(wrong.of_frame(true, 5), -1.5) << frame;
   EXPECT_LT(wrong.of_frame(false, 0), -2);
 }
 
