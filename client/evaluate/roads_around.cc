@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace milepost {
@@ -48,6 +49,7 @@ Result<std::vector<RoadAround>> roads_around(const Drive& drive,
   std::map<std::pair<std::string, std::string>, int> predecessors;  // by map and segment
   for (const SegmentKey& key : *all) {
     const Result<SegmentDescription> segment = source.segment(key.version, key.segment);
+    if (!segment && !driven.contains(key)) continue;  // not drawn; the evaluation needs no more
     if (!segment) return segment.error();
     for (const Successor& next : segment->successors) ++predecessors[{next.map, next.segment}];
     roads.push_back({key, segment->length_m, segment->vertices, driven.contains(key), false,

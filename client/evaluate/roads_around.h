@@ -21,7 +21,8 @@ struct RoadAround {
 };
 
 // The segments with a fix and those that pass near the drive, in the order of their keys. Errors:
-// those of MapSource::segments_near and segment.
+// those of MapSource::segments_near, and of MapSource::segment for those with a fix; others that
+// cannot be read are left out.
 Result<std::vector<RoadAround>> roads_around(const Drive& drive,
                                              const std::vector<MethodEvaluation>& methods,
                                              MapSource& source);

@@ -147,6 +147,10 @@ Status Localizer::expect_route(const std::vector<RoutePoint>& route) {
   positions.reserve(route.size());
   for (const RoutePoint& point : route)
     positions.push_back({point.latitude_deg, point.longitude_deg, 0});
+  if (route.empty()) {
+    impl_->localizer.expect({});
+    return {};
+  }
   milepost::Result<ExpectedRoute> expected = ExpectedRoute::through(std::move(positions));
   if (!expected) {
     return wrong("route", expected.error().what,

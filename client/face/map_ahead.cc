@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -25,11 +26,16 @@ double first_gap_m(const HeldSegment& segment, double along_m) {
   return gap_m;
 }
 
-bool has_unknown_successor(const SegmentLayer& segment, const HeldMap& held) {
-  return std::ranges::any_of(segment.successors, [&](const Successor& successor) {
-    const auto key = key_of(successor, segment, held);
-    const HeldSegment* known = key ? held.find(*key) : nullptr;
-    return known == nullptr || !known->layer;
+using OffsetsAhead = std::map<SegmentKey, double>;  // of segments on the way ahead
+
+// Whether a successor is not known, or not looked at from here on: a road that leads back to the
+// vehicle, or that is reached over another one first.
+bool has_unknown_successor(const UnrolledSegment& part, const OffsetsAhead& ahead,
+                           const HeldMap& held) {
+  return std::ranges::any_of(part.layer->successors, [&](const Successor& successor) {
+    const auto key = key_of(successor, *part.layer, held);
+    const auto known = key ? ahead.find(*key) : ahead.end();
+    return known == ahead.end() || known->second > part.extent().to_m;
   });
 }
 
@@ -38,13 +44,19 @@ bool has_unknown_successor(const SegmentLayer& segment, const HeldMap& held) {
 double held_from_m(const HeldSegment& segment, double along_m, const HeldMap& held) {
   double held_to_m = std::numeric_limits<double>::infinity();
   double end_m = along_m;
-  for (const UnrolledSegment& part :
-       unrolled_road(held, segment.layer, {along_m, along_m + kFarthestM})) {
-    if (part.side != RoadSide::current && part.side != RoadSide::ahead) continue;
+  auto road = unrolled_road(held, segment.layer, {along_m, along_m + kFarthestM});
+  std::erase_if(road, [](const UnrolledSegment& part) {
+    return part.side != RoadSide::current && part.side != RoadSide::ahead;
+  });
+  OffsetsAhead ahead;
+  for (const UnrolledSegment& part : road) {
+    if (part.side == RoadSide::ahead) ahead.emplace(part.layer->key, part.offset_m);
+  }
+  for (const UnrolledSegment& part : road) {
     const double from_m = std::max(0.0, along_m - part.offset_m);
     held_to_m =
         std::min(held_to_m, part.offset_m + first_gap_m(*held.find(part.layer->key), from_m));
-    if (has_unknown_successor(*part.layer, held))
+    if (has_unknown_successor(part, ahead, held))
       held_to_m = std::min(held_to_m, part.extent().to_m);
     end_m = std::max(end_m, part.extent().to_m);
   }

@@ -24,6 +24,8 @@ ProviderState::ProviderState(const ProviderSettings& settings)
     : settings_(settings), random_(std::random_device{}()) {}
 
 void ProviderState::want(Wants wants) {
+  const bool asks_for_more = !std::ranges::includes(wants_.maps, wants.maps);
+  if (asks_for_more) catalog_.succeeded();  // which has not failed for this question
   wants_ = std::move(wants);
   std::ranges::stable_sort(wants_.tiles, {}, &Want::priority);
   release_unused();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include <Eigen/Dense>
 
@@ -38,6 +39,7 @@ void merge_same(std::vector<Hypothesis>& hypotheses) {
       same->apart_m = std::max(same->apart_m, apart_m);
     }
     same->log_bayes_factor = std::max(same->log_bayes_factor, hypothesis.log_bayes_factor);
+    same->was_tracked = same->was_tracked || hypothesis.was_tracked;
     if (hypothesis.odds.log() > same->odds.log()) {
       same->odds = hypothesis.odds;
       same->receiver = hypothesis.receiver;
@@ -119,8 +121,8 @@ void Hypothesis::weigh(double best, const std::optional<GnssFix>& reading) {
   if (reading) odds.add(receiver.log_bayes_factor(*reading, position(), timestamp_s));
 }
 
-void weigh(std::vector<Hypothesis>& hypotheses, const std::optional<GnssFix>& reading,
-           std::size_t most) {
+std::vector<Hypothesis> weigh(std::vector<Hypothesis>& hypotheses,
+                              const std::optional<GnssFix>& reading, std::size_t most) {
   merge_same(hypotheses);
   double best = 0;
   for (const Hypothesis& hypothesis : hypotheses)
@@ -128,12 +130,16 @@ void weigh(std::vector<Hypothesis>& hypotheses, const std::optional<GnssFix>& re
   for (Hypothesis& hypothesis : hypotheses) {
     if (!hypothesis.weighed) hypothesis.weigh(best, reading);
   }
-  std::erase_if(hypotheses,
-                [](const Hypothesis& hypothesis) { return hypothesis.odds.log() < kMinLogOdds; });
+  const auto unlikely = std::ranges::stable_partition(
+      hypotheses, [](const Hypothesis& each) { return each.odds.log() >= kMinLogOdds; });
+  std::vector<Hypothesis> dropped(std::make_move_iterator(unlikely.begin()),
+                                  std::make_move_iterator(unlikely.end()));
+  hypotheses.erase(unlikely.begin(), unlikely.end());
   std::ranges::stable_sort(hypotheses, std::greater<>(),
                            [](const Hypothesis& hypothesis) { return hypothesis.odds.log(); });
   if (hypotheses.size() > most)
     hypotheses.erase(hypotheses.begin() + static_cast<std::ptrdiff_t>(most), hypotheses.end());
+  return dropped;
 }
 
 double log_odds_of_first(const std::vector<Hypothesis>& hypotheses) {

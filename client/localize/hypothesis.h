@@ -38,6 +38,7 @@ struct Hypothesis {
   // Distance to an independently found pose with about as many inliers in the last frame, in
   // metres; 0 if there is none.
   double apart_m = 0;
+  bool was_tracked = false;  // until it was lost
 
   const SegmentLayer& layer() const { return *tracker->layer(); }
   GeoPoint position() const;
@@ -57,9 +58,10 @@ struct Hypothesis {
 };
 
 // Updates the odds of all hypotheses with the last frame and the GNSS fix. Equal hypotheses are
-// merged, unlikely ones and those beyond `most` are dropped; the most likely comes first.
-void weigh(std::vector<Hypothesis>& hypotheses, const std::optional<GnssFix>& reading,
-           std::size_t most);
+// merged, unlikely ones and those beyond `most` are dropped; the most likely comes first. Returns
+// the unlikely ones.
+std::vector<Hypothesis> weigh(std::vector<Hypothesis>& hypotheses,
+                              const std::optional<GnssFix>& reading, std::size_t most);
 
 // The log odds of the first hypothesis against all others and elsewhere. REQUIRES: there is one.
 double log_odds_of_first(const std::vector<Hypothesis>& hypotheses);

@@ -28,8 +28,9 @@ struct Searching {
   // The status reported until one is accepted: initializing, lost, off_map.
   FixStatus waiting = FixStatus::initializing;
   std::vector<Hypothesis> hypotheses = {};
-  std::optional<GnssFix> lost_at = {};  // position of the hypothesis, or branch, tracked last
-  std::optional<Hypothesis> left = {};  // a hypothesis that left the map
+  std::optional<GnssFix> lost_at = {};      // position of the hypothesis, or branch, tracked last
+  std::optional<Hypothesis> left = {};      // a hypothesis that left the map
+  std::optional<Hypothesis> given_up = {};  // ... that was tracked until it was lost
 
   void leave(Hypothesis hypothesis) {
     waiting = FixStatus::off_map;
@@ -86,7 +87,7 @@ struct Localizer::Impl {
   double start_reach_m(const GnssFix& around, double timestamp_s) const;
   NearbySearch relocalize_nearby(SharedFrame& frame, const GnssFix& around, Searching& searching);
   Result<Relocalizer*> relocalizer_on(const std::shared_ptr<const SegmentLayer>& layer);
-  std::optional<GnssFix> left_at(const Searching& searching, double timestamp_s) const;
+  double log_bayes_factor_of_return(const Searching& searching, const Hypothesis& found) const;
   void carry(Searching& searching, SharedFrame& frame);
   Fix weighed(Searching& searching, double timestamp_s);
   Fix unclaimed(const Searching& searching, double timestamp_s) const;
@@ -137,6 +138,28 @@ bool is_near_end(const Hypothesis& hypothesis, double ahead_m) {
   return hypothesis.tracker->pose().along_m + ahead_m > hypothesis.layer().line.length_m();
 }
 
+// Where a hypothesis is now by its motion, while that is known well enough.
+std::optional<GnssFix> carried_to(const std::optional<Hypothesis>& hypothesis, double timestamp_s,
+                                  double min_sigma_m) {
+  if (!hypothesis) return std::nullopt;
+  const TrackedPose pose = hypothesis->tracker->pose_at(timestamp_s);
+  if (!pose.full) return std::nullopt;
+  const auto& covariance = pose.full->camera.covariance;
+  const double sigma_m = std::sqrt(covariance[0] + covariance[7]);
+  if (sigma_m > kUnknownM) return std::nullopt;
+  return GnssFix{timestamp_s, pose.full->camera.position, std::max(sigma_m, min_sigma_m)};
+}
+
+std::optional<GnssFix> left_at(const Searching& searching, double timestamp_s) {
+  return carried_to(searching.left, timestamp_s, kLeftSigmaM);
+}
+
+// The place to search without a receiver.
+std::optional<GnssFix> carried_place(const Searching& searching, double timestamp_s) {
+  const auto left = left_at(searching, timestamp_s);
+  return left ? left : carried_to(searching.given_up, timestamp_s, kElsewhereM);
+}
+
 // Whether the segment leads in the vehicle's heading, if that is known.
 bool leads_ahead(const RouteLine& line, double along_m, const GnssFix& vehicle) {
   if (!vehicle.heading_deg) return true;
@@ -169,7 +192,9 @@ void Localizer::observe(const Odometry& odometry) {
   } else {
     auto& searching = std::get<Searching>(impl_->state);
     for (Hypothesis& hypothesis : searching.hypotheses) hypothesis.tracker->observe(odometry);
-    if (searching.left) searching.left->tracker->observe(odometry);
+    for (auto* carried : {&searching.left, &searching.given_up}) {
+      if (*carried) (*carried)->tracker->observe(odometry);
+    }
   }
 }
 
@@ -215,16 +240,15 @@ bool Localizer::wait_for_tiles(double timestamp_s, SteadyTime deadline, const St
   }
 }
 
-// Where a hypothesis that left the map is now, by its motion, while that is known well enough.
-std::optional<GnssFix> Localizer::Impl::left_at(const Searching& searching,
-                                                double timestamp_s) const {
-  if (!searching.left) return std::nullopt;
-  const TrackedPose pose = searching.left->tracker->pose_at(timestamp_s);
-  if (!pose.full) return std::nullopt;
-  const auto& covariance = pose.full->camera.covariance;
-  const double sigma_m = std::sqrt(covariance[0] + covariance[7]);
-  if (sigma_m > kUnknownM) return std::nullopt;
-  return GnssFix{timestamp_s, pose.full->camera.position, std::max(sigma_m, kLeftSigmaM)};
+// Of the motion since a hypothesis left the map, for one that is found. Next to a GNSS fix, which
+// already speaks for the place, only what speaks against it counts.
+double Localizer::Impl::log_bayes_factor_of_return(const Searching& searching,
+                                                   const Hypothesis& found) const {
+  if (!searching.left) return 0;
+  const double log_bayes_factor = log_bayes_factor_after(*searching.left, found);
+  const bool is_known_otherwise =
+      fresh(gnss, found.timestamp_s).has_value() || !left_at(searching, found.timestamp_s);
+  return is_known_otherwise ? std::min(log_bayes_factor, 0.0) : log_bayes_factor;
 }
 
 // The fix, unless it is too old to start from or to contradict.
@@ -300,7 +324,7 @@ NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFi
                             candidate.log_bayes_factor,
                             candidate.matches};
       if (!hypothesis.is_on_segment(hypothesis.tracker->pose())) continue;
-      if (searching.left) hypothesis.odds.add(log_bayes_factor_after(*searching.left, hypothesis));
+      hypothesis.odds.add(log_bayes_factor_of_return(searching, hypothesis));
       if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)
         hypothesis.tracker->observe(*odometry);
       searching.hypotheses.push_back(std::move(hypothesis));
@@ -338,7 +362,7 @@ Result<Fix> Localizer::Impl::search(SharedFrame& frame) {
   std::optional<GnssFix> around = reading;
   const bool is_tested = searching.waiting != FixStatus::lost && !searching.hypotheses.empty();
   if (!around && !is_tested) around = fresh(searching.lost_at, frame.timestamp_s());
-  if (!around) around = left_at(searching, frame.timestamp_s());
+  if (!around) around = carried_place(searching, frame.timestamp_s());
   if (around) {
     const NearbySearch nearby = relocalize_nearby(frame, *around, searching);
     if (nearby.failure) {
@@ -355,7 +379,11 @@ Result<Fix> Localizer::Impl::search(SharedFrame& frame) {
       }
     }
   }
-  weigh(searching.hypotheses, reading, static_cast<std::size_t>(settings.max_hypotheses));
+  std::vector<Hypothesis> dropped =
+      weigh(searching.hypotheses, reading, static_cast<std::size_t>(settings.max_hypotheses));
+  for (Hypothesis& hypothesis : dropped) {
+    if (hypothesis.was_tracked) searching.given_up = std::move(hypothesis);
+  }
   const bool are_branches = searching.lost_at && searching.waiting == FixStatus::initializing;
   if (are_branches && !searching.hypotheses.empty())
     searching.lost_at = place_of(searching.hypotheses.front(), frame.timestamp_s());
@@ -442,11 +470,11 @@ Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
   tracking.doubt.reset();
   if (hypothesis.measured) check_by_relocalization(tracking, frame);
   hypothesis.weigh(hypothesis.log_bayes_factor, fresh(gnss, frame.timestamp_s()));
-  if (hypothesis.measured && hypothesis.odds.log() >= settings.odds.hold) {
-    tracking.frames_without_measurement = 0;
+  tracking.frames_without_measurement =
+      hypothesis.measured ? 0 : tracking.frames_without_measurement + 1;
+  if (hypothesis.measured && hypothesis.odds.log() >= settings.odds.hold)
     return located(hypothesis, FixStatus::tracking);
-  }
-  const bool is_lost = ++tracking.frames_without_measurement > settings.max_predicted_frames ||
+  const bool is_lost = tracking.frames_without_measurement > settings.max_predicted_frames ||
                        hypothesis.odds.log() < settings.odds.give_up;
   if (!is_lost) {
     Fix fix = located(hypothesis, FixStatus::predicted);
@@ -458,6 +486,7 @@ Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
     return fix;
   }
   Searching lost = lost_from(hypothesis, frame.timestamp_s());
+  hypothesis.was_tracked = true;
   lost.hypotheses.push_back(std::move(hypothesis));
   state = std::move(lost);
   return search(frame);
@@ -535,7 +564,7 @@ Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
     const auto& searching = std::get<Searching>(state);
     for (const Hypothesis& hypothesis : searching.hypotheses) want_place(hypothesis);
     if (!around) around = fresh(searching.lost_at, timestamp_s);
-    if (!around) around = left_at(searching, timestamp_s);
+    if (!around) around = carried_place(searching, timestamp_s);
   }
   if (!around) return wanted.wants();
   wanted.set_surroundings(surroundings(*around));

@@ -12,12 +12,13 @@ void LogOdds::move(double by_m) {
 }
 
 void LogOdds::add_frame(double log_bayes_factor, double best, double along_m) {
-  if (log_bayes_factor <= 0) {
-    log_ += std::max(log_bayes_factor, -settings_.max_against);
-    return;
-  }
   const double novel =
       seen_ ? std::min(1.0, std::abs(along_m - seen_from_m_) / settings_.novel_m) : 1.0;
+  if (log_bayes_factor <= 0) {
+    const double at_once = std::min(1.0, -log_bayes_factor / settings_.strongly_against);
+    log_ += std::max(log_bayes_factor, -settings_.max_against) * std::max(novel, at_once);
+    return;
+  }
   const double still_counted = (1 - novel) * counted_;
   const double whole = std::min(log_bayes_factor, settings_.max_for);
   const double more =

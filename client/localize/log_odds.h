@@ -15,8 +15,10 @@ struct LogOddsSettings {
   double give_up = 0;        // ... below which it is rejected
   // Consecutive frames see the same landmarks: evidence in favour counts in proportion to the
   // distance travelled since the last one, fully after this distance, and as far as it exceeds what
-  // was counted of the frames before. Evidence against counts fully.
+  // was counted of the frames before. Evidence against counts fully from this log Bayes factor on,
+  // and in proportion to it, or to the distance, below.
   double novel_m = 5;
+  double strongly_against = 3;
   // Probability that the vehicle leaves the map or the belief slips within novel_m. Bounds the
   // odds.
   double lapse = 0.004;

@@ -47,7 +47,8 @@ std::optional<SegmentKey> key_of(const Successor& successor, const SegmentLayer&
     if (near.version.map == successor.map) return SegmentKey{near.version, successor.segment};
   }
   for (const auto& [key, segment] : held.segments) {
-    if (key.version.map == successor.map) return SegmentKey{key.version, successor.segment};
+    const bool is_held = segment->layer && key.version.map == successor.map;
+    if (is_held) return SegmentKey{key.version, successor.segment};
   }
   const auto current = held.current_maps.find(successor.map);
   if (current != held.current_maps.end()) return SegmentKey{current->second, successor.segment};

@@ -14,7 +14,7 @@ void WantedMap::add_way(const std::shared_ptr<const SegmentLayer>& segment, cons
                         WantedFor use) {
   const auto road = unrolled_road(held_, segment, range);
   const auto is_on_route = [&](const UnrolledSegment& part) {
-    return part.side == RoadSide::ahead && route_.leads_over(part.layer->line);
+    return part.side == RoadSide::ahead && route_.leads_over(*part.layer);
   };
   const bool is_route_known = std::ranges::any_of(road, is_on_route);
   for (const UnrolledSegment& part : road) {

@@ -1,5 +1,7 @@
 #include "mapper/network/border.h"
 
+#include <string>
+
 #include <Eigen/Geometry>
 
 #include "mapper/network/geocentric.h"

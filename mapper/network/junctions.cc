@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 namespace milepost {
@@ -34,19 +35,8 @@ bool holds_change(const std::vector<Change>& changes, const AlongRange& range) {
       changes, [&](const Change& change) { return range.contains(change.place.along_m); });
 }
 
-// Where a way crosses a border.
-std::vector<double> crossings_m(const Way& way, const Border& border) {
-  std::vector<double> found;
-  for (std::size_t i = 0; i + 1 < way.states.size(); ++i) {
-    const bool crosses =
-        border.has_left(way.states[i].position_m) != border.has_left(way.states[i + 1].position_m);
-    if (crosses) found.push_back(static_cast<double>(i) + 0.5);
-  }
-  return found;
-}
-
 void add_changes(std::size_t index, const Way& way, const CrossSections& sections,
-                 const JunctionSettings& settings, std::vector<Change>& changes) {
+                 const UTurnSettings& settings, std::vector<Change>& changes) {
   const std::size_t first_change = changes.size();
   changes.push_back({{index, 0}});
   std::vector<Place> places = sections.places({index, 0});
@@ -58,21 +48,69 @@ void add_changes(std::size_t index, const Way& way, const CrossSections& section
   }
   const std::vector<Change> passes_change(
       changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end());
-  const double approach_m = settings.u_turn.max_approach_m;
-  for (const AlongRange& arc : u_turns(way, settings.u_turn)) {
-    const AlongRange before{arc.from_m - approach_m, arc.from_m};
-    const AlongRange after{arc.to_m, arc.to_m + approach_m};
+  for (const AlongRange& arc : u_turns(way, settings)) {
+    const AlongRange before{arc.from_m - settings.max_approach_m, arc.from_m};
+    const AlongRange after{arc.to_m, arc.to_m + settings.max_approach_m};
     if (!holds_change(passes_change, before)) changes.push_back({{index, arc.from_m}, true});
     if (!holds_change(passes_change, after)) changes.push_back({{index, arc.to_m}, true});
   }
-  if (settings.border) {
-    for (const double crossing_m : crossings_m(way, *settings.border)) {
-      const AlongRange near = AlongRange{crossing_m, crossing_m}.widened(settings.border_reach_m);
-      if (!holds_change(passes_change, near)) changes.push_back({{index, crossing_m}, true});
-    }
-  }
   changes.push_back({{index, way.length_m}});
   std::stable_sort(changes.begin() + static_cast<std::ptrdiff_t>(first_change), changes.end(),
+                   [](const Change& a, const Change& b) { return a.place < b.place; });
+}
+
+// Where a way crosses a border: the last change of sides before it is clearly on the other.
+std::vector<double> crossings_m(const Way& way, const Border& border, double clearly_m) {
+  std::vector<double> found;
+  std::optional<bool> was_left;
+  double changed_m = 0;
+  for (std::size_t i = 0; i < way.states.size(); ++i) {
+    const double left_m = border.left_m(way.states[i].position_m);
+    const bool is_left = left_m > 0;
+    const bool changes = i > 0 && border.has_left(way.states[i - 1].position_m) != is_left;
+    if (changes) changed_m = static_cast<double>(i) - 0.5;
+    if (std::abs(left_m) < clearly_m) continue;
+    if (was_left && *was_left != is_left) found.push_back(changed_m);
+    was_left = is_left;
+  }
+  return found;
+}
+
+// The changes within some reach of a place, on its way.
+std::vector<std::size_t> changes_near(const Place& place, const std::vector<Change>& changes,
+                                      double reach_m) {
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const Place& other = changes[i].place;
+    if (other.way == place.way && std::abs(other.along_m - place.along_m) <= reach_m)
+      near.push_back(i);
+  }
+  return near;
+}
+
+// Cuts a road where its first way crosses the border, all of its ways on one cross-section. Near a
+// change, the road is cut there instead.
+void add_border(const std::vector<Way>& ways, const CrossSections& sections, const Border& border,
+                double reach_m, std::vector<Change>& changes) {
+  const std::size_t of_passes = changes.size();
+  for (std::size_t index = 0; index < ways.size(); ++index) {
+    for (const double crossing_m : crossings_m(ways[index], border, reach_m)) {
+      const std::vector<Place> places = sections.places({index, crossing_m});
+      const auto is_near_change = [&](const Place& place) {
+        return !changes_near(place, changes, reach_m).empty();
+      };
+      if (std::ranges::any_of(places, is_near_change)) {
+        for (const Place& place : places) {
+          for (const std::size_t near : changes_near(place, changes, reach_m))
+            changes[near].holds = true;
+        }
+        continue;
+      }
+      for (const Place& place : places) changes.push_back({place, true});
+    }
+  }
+  if (changes.size() == of_passes) return;
+  std::stable_sort(changes.begin(), changes.end(),
                    [](const Change& a, const Change& b) { return a.place < b.place; });
 }
 
@@ -219,8 +257,10 @@ std::vector<std::vector<Cut>> junction_cuts(const std::vector<Way>& ways,
                                             const JunctionSettings& settings) {
   std::vector<Change> changes;
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    add_changes(i, ways[i], sections, settings, changes);
+    add_changes(i, ways[i], sections, settings.u_turn, changes);
   }
+  if (settings.border)
+    add_border(ways, sections, *settings.border, settings.border_reach_m, changes);
   std::vector<Change> means =
       JunctionClusters(std::move(changes), sections, settings.radius_m).means();
   std::stable_sort(means.begin(), means.end(),

@@ -24,8 +24,9 @@ struct JunctionSettings {
   double grid_m = 5;         // cuts lie at multiples of this along their drive's forward way
   double min_segment_m = 5;  // a cut nearer to a way's end is left out
   UTurnSettings u_turn;
-  std::optional<Border> border;  // ways are cut where they cross it, ...
-  double border_reach_m = 10;    // ... unless the passes change this near
+  std::optional<Border> border;  // roads are cut where they cross it, ...
+  // ... being this far beyond it afterwards, or where passes change or a way ends this near.
+  double border_reach_m = 10;
 };
 
 // The cuts of each way, ascending, without its ends.

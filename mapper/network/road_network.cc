@@ -64,8 +64,9 @@ NetworkFinding finding_of(const StackedPieces& stacked, const std::vector<Way>& 
       place_of(stacked.lower.front()) + " and " + place_of(stacked.upper.front()),
       "they run over " +
           std::to_string(std::lround(stacked.lower.front().to_m - stacked.lower.front().from_m)) +
-          " m in one place, and no drive changes between them: one road, or one above the "
-          "other; kept apart",
+          " m in one place, and no drive changes between them: " +
+          (stacked.kept_apart ? "one road, or one above the other; kept apart"
+                              : "by their images, one road above the other; kept apart"),
       "map them with altitudes, or with a drive that changes between them"};
 }
 
@@ -127,7 +128,7 @@ RoadNetwork road_network(const std::vector<NamedDrivenLines>& drives,
     std::ranges::copy(drives[drive].findings, std::back_inserter(network.findings));
   }
   for (const StackedPieces& pieces : stacked) {
-    if (pieces.kept_apart) network.findings.push_back(finding_of(pieces, ways, drives));
+    network.findings.push_back(finding_of(pieces, ways, drives));
   }
   for (const PieceGroup& group : groups) {
     NetworkSegment segment;

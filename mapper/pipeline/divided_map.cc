@@ -78,10 +78,13 @@ Status DividedMap::add_tile(const std::string& layer, const BuiltTile& tile) {
 Result<std::vector<MapReport>> DividedMap::finish() {
   std::vector<MapReport> reports;
   for (Side& side : sides_) {
-    Result<std::string> build = side.writer.finish();
+    Result<std::string> build = side.writer.complete();
     if (!build) return build.error();
     side.report.build = *build;
     reports.push_back(side.report);
+  }
+  for (Side& side : sides_) {
+    if (const Status published = side.writer.publish(); !published.ok()) return published.error();
   }
   return reports;
 }

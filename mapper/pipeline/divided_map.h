@@ -27,7 +27,7 @@ struct MapReport {
 };
 
 // Each segment and its tiles go to the map on its side; successors on the other side name the other
-// map. Each file appears complete, when finish() is called, or not at all.
+// map. Each file appears complete or not at all, and none before all are complete.
 // Not safe to use from several threads at once.
 class DividedMap {
  public:

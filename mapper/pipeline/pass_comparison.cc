@@ -111,7 +111,8 @@ std::optional<bool> PassComparison::show_the_same_road(const Pass& a, const Pass
     ++(is_same ? same : other);
   }
   if (same > 1 && same > other) return true;
-  if (same == 0 && 2 * other > pairs.size()) return false;
+  constexpr std::size_t kLeastPairs = 3;
+  if (same == 0 && other >= kLeastPairs && 2 * other > pairs.size()) return false;
   return std::nullopt;
 }
 

@@ -23,8 +23,8 @@ class PassComparison {
                  int jobs)
       : drives_(drives), lines_(lines), settings_(settings), jobs_(jobs) {}
 
-  // True if most pairs of frames match, false if none does, nothing if they do not tell: other
-  // lanes, light and traffic can hide that two roads are one.
+  // True if most pairs of frames match, false if none of three or more does, nothing if they do not
+  // tell. In very different light one road may look like two.
   std::optional<bool> show_the_same_road(const Pass& a, const Pass& b);
 
   // The first error of a frame: one of FrameReader::gray.

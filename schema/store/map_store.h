@@ -102,6 +102,10 @@ class MapWriter {
                   ByteView frame);
   // Computes the build, publishes the file and returns the build. Nothing may be added after it.
   Result<std::string> finish();
+  // The same in two steps, for maps that belong together: all are completed before the first is
+  // published. REQUIRES for publish(): complete() has returned a build.
+  Result<std::string> complete();
+  Status publish();
 
  private:
   struct Impl;

@@ -298,13 +298,23 @@ Status MapWriter::add_cell(const std::string& layer, std::uint32_t cell, std::ui
                          .run());
 }
 
-Result<std::string> MapWriter::finish() {
+Result<std::string> MapWriter::complete() {
   if (!impl_->failure.ok()) return impl_->failure.error();
   Result<std::string> build = impl_->complete();
   if (!build) return impl_->keep(build.error()).error();
   impl_->session.reset();
-  const Status published = publish_file(std::exchange(impl_->partial, {}), impl_->file);
-  if (!published.ok()) return impl_->keep(published).error();
+  return build;
+}
+
+Status MapWriter::publish() {
+  if (!impl_->failure.ok()) return impl_->failure;
+  return impl_->keep(publish_file(std::exchange(impl_->partial, {}), impl_->file));
+}
+
+Result<std::string> MapWriter::finish() {
+  Result<std::string> build = complete();
+  if (!build) return build;
+  if (const Status published = publish(); !published.ok()) return published.error();
   return build;
 }
 

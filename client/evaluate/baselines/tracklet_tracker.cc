@@ -70,7 +70,9 @@ class TrackletTracker : public SegmentTracker {
     result.failure = covered_.failure;
     result.measured = tracker_->advance(frame.timestamp_s(), measured);
     result.matches = result.measured ? measured->support : 0;
-    result.log_bayes_factor = likelihood_.of_frame(result.measured, result.matches);
+    // Tiles that have not arrived are no contradiction.
+    if (result.measured || covered_.complete)
+      result.log_bayes_factor = likelihood_.of_frame(result.measured, result.matches);
     return result;
   }
 

@@ -96,7 +96,9 @@ class WarpTracker : public SegmentTracker {
     const Comparison seen = compare(frame, needed(frame.timestamp_s()));
     WarpRow next = next_row(row_, seen.costs, max_step_m(frame.timestamp_s()));
     if (!seen.compared || next.empty()) {
-      return {.log_bayes_factor = likelihood_.of_frame(false, 0), .failure = covered_.failure};
+      // Tiles that have not arrived are no contradiction.
+      const double log_bayes_factor = covered_.complete ? likelihood_.of_frame(false, 0) : 0;
+      return {.log_bayes_factor = log_bayes_factor, .failure = covered_.failure};
     }
     row_ = std::move(next);
     normalize_costs(frame.timestamp_s());

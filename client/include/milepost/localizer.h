@@ -99,9 +99,8 @@ class MILEPOST_PUBLIC Localizer {
 
   // The way that the vehicle is expected to take, in driving order, within 15 m of the road: the
   // map along it is fetched before that of other branches. It is no evidence of where the vehicle
-  // is, which may leave it. Replaces an earlier route.
-  // Errors: invalid_input (fewer than two points, one out of range, no length): the earlier route
-  // stays.
+  // is, which may leave it. Replaces an earlier route; an empty one withdraws it.
+  // Errors: invalid_input (one point, one out of range, no length): the earlier route stays.
   Status expect_route(const std::vector<RoutePoint>& route);
 
   // The fix of the next image.

@@ -77,8 +77,9 @@ TEST_F(PublicFace, RefusesRoutesThatAreNone) {
   auto localizer = Localizer::open(no_server(), camera());
   ASSERT_TRUE(localizer.ok());
   EXPECT_TRUE(localizer->expect_route({{49, 8.4}, {49.01, 8.4}}).ok());
+  EXPECT_TRUE(localizer->expect_route({}).ok());
   const std::vector<std::vector<RoutePoint>> none = {
-      {}, {{49, 8.4}}, {{49, 8.4}, {49, 8.4}}, {{49, 8.4}, {91, 8.4}}, {{49, 8.4}, {kNothing, 8}}};
+      {{49, 8.4}}, {{49, 8.4}, {49, 8.4}}, {{49, 8.4}, {91, 8.4}}, {{49, 8.4}, {kNothing, 8}}};
   for (const std::vector<RoutePoint>& route : none) {
     const Status refused = localizer->expect_route(route);
     ASSERT_FALSE(refused.ok());

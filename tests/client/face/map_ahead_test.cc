@@ -87,6 +87,17 @@ TEST(MapAhead, IsHeldThroughAJunctionOnEveryBranch) {
   EXPECT_NEAR(map_ahead_of(unknown, {}, OnSegment{kRoad, 60}).held_m, 40, 0.1);
 }
 
+// The road leads back to its begin: what lies behind the vehicle is not counted as held.
+TEST(MapAhead, ALoopIsCountedOnce) {
+  HeldMap held = parting_road(10);
+  SegmentLayer back = *held.find({kRoad.version, "short"})->layer;
+  back.successors = {{"road", "town"}};
+  HeldSegment segment = *held.find({kRoad.version, "short"});
+  segment.layer = std::make_shared<const SegmentLayer>(std::move(back));
+  held.segments[{kRoad.version, "short"}] = std::make_shared<const HeldSegment>(std::move(segment));
+  EXPECT_NEAR(map_ahead_of(held, {}, OnSegment{kRoad, 60}).held_m, 100, 0.1);
+}
+
 TEST(MapAhead, OfAPlaceThatIsNotKnownNothingIsHeld) {
   EXPECT_EQ(map_ahead_of(holed(), {}, std::nullopt).held_m, 0);
   EXPECT_EQ(map_ahead_of(HeldMap(), {}, OnSegment{kRoad, 60}).held_m, 0);

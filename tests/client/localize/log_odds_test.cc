@@ -58,10 +58,19 @@ TEST(LogOdds, EvidenceThatGrowsCountsAsFarAsItIsMore) {
 TEST(LogOdds, WhatSpeaksAgainstCountsWhereverItIsSeen) {
   LogOdds odds = seen_once(6);
   const double once = odds.log();
-  odds.add_frame(-2, 0, 0);
-  EXPECT_DOUBLE_EQ(odds.log(), once - 2);
+  odds.add_frame(-kOddsSettings.strongly_against, 0, 0);
+  EXPECT_DOUBLE_EQ(odds.log(), once - kOddsSettings.strongly_against);
   odds.add_frame(-50, 0, 0);  // may be an occlusion
-  EXPECT_DOUBLE_EQ(odds.log(), once - 2 - kOddsSettings.max_against);
+  EXPECT_DOUBLE_EQ(odds.log(), once - kOddsSettings.strongly_against - kOddsSettings.max_against);
+}
+
+TEST(LogOdds, WhatSpeaksWeaklyAgainstCountsInPartWhereTheViewIsNotNew) {
+  LogOdds odds = seen_once(6);
+  const double once = odds.log();
+  odds.add_frame(-kOddsSettings.strongly_against / 3, 0, 0);
+  EXPECT_DOUBLE_EQ(odds.log(), once - kOddsSettings.strongly_against / 9);
+  odds.add_frame(-0.5, 0, kOddsSettings.novel_m);  // another view
+  EXPECT_DOUBLE_EQ(odds.log(), once - kOddsSettings.strongly_against / 9 - 0.5);
 }
 
 // A repetitive facade: both hypotheses explain the frame, one of them better.

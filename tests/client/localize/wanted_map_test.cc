@@ -98,9 +98,18 @@ TEST_F(WantedRoads, TheBuildOfAnUnknownNeighbourIsAskedFor) {
   EXPECT_THAT(wanted({50, 250}), ::testing::Contains(Pair("far", 1)));
 }
 
+TEST_F(WantedRoads, ARouteMayPassInBothDirections) {
+  const auto route = ExpectedRoute::through({in_wanted_town(900, 120), in_wanted_town(18, 120),
+                                             in_wanted_town(0, 98), in_wanted_town(0, -500),
+                                             in_wanted_town(1, -500), in_wanted_town(1, 98),
+                                             in_wanted_town(18, 121), in_wanted_town(900, 121)});
+  EXPECT_THAT(wanted({50, 150}, *route),
+              ElementsAre(Pair("road", 0), Pair("right", 0), Pair("straight", 1)));
+}
+
 TEST_F(WantedRoads, ARouteIsAtLeastTwoPlaces) {
   EXPECT_FALSE(ExpectedRoute::through({in_wanted_town(0, 0)}).ok());
-  EXPECT_FALSE(ExpectedRoute().leads_over(held_.find({kWantedTown, "road"})->layer->line));
+  EXPECT_FALSE(ExpectedRoute().leads_over(*held_.find({kWantedTown, "road"})->layer));
 }
 
 }  // namespace

@@ -260,6 +260,31 @@ TEST(RoadNetwork, ABorderCutsTheRoadsThatCrossIt) {
               ElementsAre(Pair("a-0", true)));
 }
 
+TEST(RoadNetwork, ABorderAlongARoadDoesNotShatterIt) {
+  const DrawnRoads roads("w------------------------------e");
+  NetworkSettings settings = without_overlap();
+  settings.junction.border =
+      Border::through(DrawnRoads::geo_of({-100, 3}, 0), DrawnRoads::geo_of({300, -7}, 0)).value();
+  const PositionErrors white{.white_m = 0.3};
+  const MadeNetwork made = network_of({drawn_lines(roads.drive({"a", "w e"}, white))}, settings);
+  EXPECT_EQ(made.network.segments.size(), 1U) << text_of(made);
+}
+
+TEST(RoadNetwork, LanesAreCutOnOneCrossSectionWhereTheBorderIsOblique) {
+  const DrawnRoads roads(
+      "w------------------------------------------------------------e");  // 244 m
+  NetworkSettings settings = without_overlap();
+  settings.junction.border =
+      Border::through(DrawnRoads::geo_of({60, -30}, 0), DrawnRoads::geo_of({180, 30}, 0)).value();
+  const MadeNetwork made = network_of(
+      {drawn_lines(roads.drive({"a", "w e"})), drawn_lines(roads.drive({"b", "w:2 e"}))}, settings);
+  ASSERT_EQ(made.network.segments.size(), 2U) << text_of(made);
+  for (const NetworkSegment& segment : made.network.segments) {
+    ASSERT_THAT(made.pass_names(segment), ElementsAre("a", "b"));
+    EXPECT_NEAR(segment.passes[0].to_m, segment.passes[1].to_m, 5.1) << text_of(made);
+  }
+}
+
 TEST(RoadNetwork, ABorderBesideAJunctionCutsThere) {
   using ::testing::Pair;
   constexpr const char* kParting = R"(
@@ -665,7 +690,9 @@ TEST(RoadNetwork, ImagesDecideOnStackedRoads) {
         });
     EXPECT_EQ(asked, 1);
     EXPECT_EQ(network.segments.size(), same ? 5U : 2U);
-    EXPECT_THAT(network.findings, IsEmpty());
+    ASSERT_EQ(network.findings.size(), same ? 0U : 1U);
+    for (const NetworkFinding& finding : network.findings)
+      EXPECT_THAT(finding.what, ::testing::HasSubstr("by their images"));
   }
 }
 
