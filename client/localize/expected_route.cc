@@ -31,7 +31,9 @@ bool ExpectedRoute::passes(const GeoPoint& position, double heading_deg) const {
   constexpr double kBesideM = 15;
   constexpr double kMaxTurnDeg = 60;
   constexpr double kPieceM = 50;  // in which one passage is looked for
-  for (double from_m = 0; from_m < line_->length_m(); from_m += kPieceM) {
+  const auto pieces = static_cast<int>(std::ceil(line_->length_m() / kPieceM));
+  for (int piece = 0; piece < pieces; ++piece) {
+    const double from_m = piece * kPieceM;
     const LineProjection beside = line_->project(position, {from_m, from_m + kPieceM});
     if (beside.distance_m > kBesideM) continue;
     const double turn = turn_deg(line_->heading_deg_at(beside.along_m), heading_deg);

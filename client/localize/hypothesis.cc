@@ -150,7 +150,7 @@ double log_odds_of_first(const std::vector<Hypothesis>& hypotheses) {
 
 double log_bayes_factor_after(const Hypothesis& left, const Hypothesis& hypothesis) {
   constexpr double kElsewhereSigmas = 2;  // the distance at which it is neutral ...
-  constexpr double kDegrees = 3;          // ... of Student's t
+  constexpr double kDegrees = 3;          // ... of the bivariate Student's t
   constexpr double kMaxAgainst = 4.6;
   const TrackedPose carried = left.tracker->pose_at(hypothesis.timestamp_s);
   const TrackedPose here = hypothesis.tracker->pose();
