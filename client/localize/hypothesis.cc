@@ -130,11 +130,12 @@ std::vector<Hypothesis> weigh(std::vector<Hypothesis>& hypotheses,
   for (Hypothesis& hypothesis : hypotheses) {
     if (!hypothesis.weighed) hypothesis.weigh(best, reading);
   }
-  const auto unlikely = std::ranges::stable_partition(
-      hypotheses, [](const Hypothesis& each) { return each.odds.log() >= kMinLogOdds; });
-  std::vector<Hypothesis> dropped(std::make_move_iterator(unlikely.begin()),
-                                  std::make_move_iterator(unlikely.end()));
-  hypotheses.erase(unlikely.begin(), unlikely.end());
+  const auto unlikely = std::stable_partition(
+      hypotheses.begin(), hypotheses.end(),
+      [](const Hypothesis& hypothesis) { return hypothesis.odds.log() >= kMinLogOdds; });
+  std::vector<Hypothesis> dropped(std::make_move_iterator(unlikely),
+                                  std::make_move_iterator(hypotheses.end()));
+  hypotheses.erase(unlikely, hypotheses.end());
   std::ranges::stable_sort(hypotheses, std::greater<>(),
                            [](const Hypothesis& hypothesis) { return hypothesis.odds.log(); });
   if (hypotheses.size() > most)
