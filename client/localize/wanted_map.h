@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "client/fetch/held_map.h"
 #include "client/fetch/wants.h"
@@ -11,6 +10,7 @@
 
 namespace milepost {
 
+// In the order in which they are fetched; what is less likely of one comes with the next.
 enum class WantedFor : int { this_frame, next_frames, a_restart, the_way_ahead };
 
 class WantedMap {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -92,24 +93,17 @@ std::vector<std::size_t> changes_near(const Place& place, const std::vector<Chan
 // change, the road is cut there instead.
 void add_border(const std::vector<Way>& ways, const CrossSections& sections, const Border& border,
                 double reach_m, std::vector<Change>& changes) {
-  const std::size_t of_passes = changes.size();
   for (std::size_t index = 0; index < ways.size(); ++index) {
     for (const double crossing_m : crossings_m(ways[index], border, reach_m)) {
       const std::vector<Place> places = sections.places({index, crossing_m});
-      const auto is_near_change = [&](const Place& place) {
-        return !changes_near(place, changes, reach_m).empty();
-      };
-      if (std::ranges::any_of(places, is_near_change)) {
-        for (const Place& place : places) {
-          for (const std::size_t near : changes_near(place, changes, reach_m))
-            changes[near].holds = true;
-        }
-        continue;
-      }
+      std::vector<std::size_t> near;
+      for (const Place& place : places)
+        std::ranges::copy(changes_near(place, changes, reach_m), std::back_inserter(near));
+      for (const std::size_t change : near) changes[change].holds = true;
+      if (!near.empty()) continue;
       for (const Place& place : places) changes.push_back({place, true});
     }
   }
-  if (changes.size() == of_passes) return;
   std::stable_sort(changes.begin(), changes.end(),
                    [](const Change& a, const Change& b) { return a.place < b.place; });
 }
