@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "schema/base/digest.h"
@@ -46,6 +48,21 @@ Status check_format(const sqlite::Database& map) {
                *version < kMapFormatVersion
                    ? "build the map anew"
                    : "read it with a newer version of milepost, or build the map anew"};
+}
+
+// The entries of one layer in the indices of tiles or cells, without a copy.
+template <class Entry>
+std::span<const Entry> entries_of(const std::map<std::string, std::vector<Entry>>& indices,
+                                  const std::string& layer) {
+  const auto index = indices.find(layer);
+  if (index == indices.end()) return {};
+  return index->second;
+}
+
+template <class Entry>
+Result<std::vector<Entry>> copied(const Result<std::span<const Entry>>& entries) {
+  if (!entries) return entries.error();
+  return std::vector<Entry>(entries->begin(), entries->end());
 }
 
 // A segment whose document is the manifest's.
@@ -186,13 +203,18 @@ struct MapReader::Impl {
     return SharedSegment(std::move(checked));
   }
 
-  Result<std::vector<TileEntry>> tiles(const std::string& id, const std::string& layer) {
+  // The view is valid until another segment is read.
+  Result<std::span<const TileEntry>> tiles(const std::string& id, const std::string& layer) {
     const Result<SharedSegment> found = segment(id);
     if (!found) return found.error();
     if (Status there = require_layer(layer); !there) return there.error();
-    const TileIndices& indices = (*found)->content.tiles;
-    const auto index = indices.find(layer);
-    return index == indices.end() ? std::vector<TileEntry>() : index->second;
+    return entries_of((*found)->content.tiles, layer);
+  }
+
+  Result<std::span<const CellEntry>> cells_of(const std::string& layer) {
+    if (Status there = require_layer(layer); !there) return there.error();
+    if (Status read = read_cells(); !read) return read.error();
+    return entries_of(*cells, layer);
   }
 
   Status read_cells() {
@@ -266,22 +288,23 @@ Result<std::string> MapReader::segment_document(const std::string& id) const {
 
 Result<std::vector<TileEntry>> MapReader::tile_index(const std::string& segment,
                                                      const std::string& layer) const {
-  return impl_->tiles(segment, layer);
+  return copied(impl_->tiles(segment, layer));
 }
 
 Result<std::vector<TileEntry>> MapReader::tiles_in(const std::string& segment,
                                                    const std::string& layer,
                                                    const AlongRange& range) const {
-  Result<std::vector<TileEntry>> entries = impl_->tiles(segment, layer);
-  if (entries) {
-    std::erase_if(*entries, [&](const TileEntry& entry) { return !entry.along.meets(range); });
-  }
-  return entries;
+  const auto entries = impl_->tiles(segment, layer);
+  if (!entries) return entries.error();
+  std::vector<TileEntry> within;
+  std::ranges::copy_if(*entries, std::back_inserter(within),
+                       [&](const TileEntry& entry) { return entry.along.meets(range); });
+  return within;
 }
 
 Result<Bytes> MapReader::tile(const std::string& segment, const std::string& layer,
                               std::uint32_t index) const {
-  const Result<std::vector<TileEntry>> entries = impl_->tiles(segment, layer);
+  const auto entries = impl_->tiles(segment, layer);
   if (!entries) return entries.error();
   const auto entry = std::ranges::lower_bound(*entries, index, {}, &TileEntry::index);
   if (entry == entries->end() || entry->index != index) {
@@ -306,25 +329,22 @@ Result<std::string> MapReader::areas_document() const {
 }
 
 Result<std::vector<CellEntry>> MapReader::cell_index(const std::string& layer) const {
-  if (Status there = impl_->require_layer(layer); !there) return there.error();
-  if (Status read = impl_->read_cells(); !read) return read.error();
-  const auto index = impl_->cells->find(layer);
-  return index == impl_->cells->end() ? std::vector<CellEntry>() : index->second;
+  return copied(impl_->cells_of(layer));
 }
 
 Result<std::vector<CellEntry>> MapReader::cells_in(const std::string& layer,
                                                    const Bounds& box) const {
-  Result<std::vector<CellEntry>> entries = cell_index(layer);
-  if (entries) {
-    std::erase_if(*entries, [&](const CellEntry& entry) {
-      return !GridCell::numbered(entry.cell).bounds().meets(box);
-    });
-  }
-  return entries;
+  const auto entries = impl_->cells_of(layer);
+  if (!entries) return entries.error();
+  std::vector<CellEntry> within;
+  std::ranges::copy_if(*entries, std::back_inserter(within), [&](const CellEntry& entry) {
+    return GridCell::numbered(entry.cell).bounds().meets(box);
+  });
+  return within;
 }
 
 Result<Bytes> MapReader::cell(const std::string& layer, std::uint32_t number) const {
-  const Result<std::vector<CellEntry>> entries = cell_index(layer);
+  const auto entries = impl_->cells_of(layer);
   if (!entries) return entries.error();
   const auto entry = std::ranges::lower_bound(*entries, number, {}, &CellEntry::cell);
   if (entry == entries->end() || entry->cell != number) {
