@@ -166,6 +166,8 @@ std::shared_ptr<MemorySource> empty_map(const LandmarkRoad& road) {
   return std::make_shared<MemorySource>(kVersion, "tracklets", parameters);
 }
 
+std::string id_from(double from_m) { return "road-" + std::to_string(std::lround(from_m)); }
+
 void add_segment(MemorySource& map, const LandmarkRoad& road, const std::string& id,
                  const AlongRange& part, const std::vector<Successor>& successors) {
   std::vector<MemorySource::Tile> tiles;
@@ -188,15 +190,22 @@ std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road, const std::vector
   auto map = empty_map(road);
   double from_m = 0;
   for (std::size_t i = 0; i <= cuts_m.size(); ++i) {
-    const std::string id = "road-" + std::to_string(std::lround(from_m));
+    const std::string id = id_from(from_m);
     if (i == cuts_m.size()) {
       add_segment(*map, road, id, {from_m, LandmarkRoad::kLengthM}, {});
       break;
     }
-    const std::string next = "road-" + std::to_string(std::lround(cuts_m[i]));
-    add_segment(*map, road, id, {from_m, cuts_m[i] + kOverlapM}, {{next, kVersion.map}});
+    add_segment(*map, road, id, {from_m, cuts_m[i] + kOverlapM},
+                {{id_from(cuts_m[i]), kVersion.map}});
     from_m = cuts_m[i];
   }
+  return map;
+}
+
+std::shared_ptr<MemorySource> map_of_parts(const LandmarkRoad& road,
+                                           const std::vector<AlongRange>& parts) {
+  auto map = empty_map(road);
+  for (const AlongRange& part : parts) add_segment(*map, road, id_from(part.from_m), part, {});
   return map;
 }
 

@@ -73,6 +73,9 @@ LocalizerSettings settings_of_a_short_reach();
 std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road);
 // As segments "road-0", "road-CUT", ..., each of which overlaps the next by 5 m.
 std::shared_ptr<MemorySource> map_of(const LandmarkRoad& road, const std::vector<double>& cuts_m);
+// The map of some parts of the road as segments "road-FROM" that are not linked.
+std::shared_ptr<MemorySource> map_of_parts(const LandmarkRoad& road,
+                                           const std::vector<AlongRange>& parts);
 
 // Waits until the localizer's map wants are settled.
 void wait_for_tiles(Localizer& localizer, double timestamp_s);

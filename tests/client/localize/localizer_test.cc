@@ -36,6 +36,15 @@ ImageDescriptor image_beside(double along_m) {
   return image;
 }
 
+// Of the two branches beyond a junction.
+template <int kFirst>
+ImageDescriptor image_of_branch(double along_m) {
+  ImageDescriptor image{};
+  image[kFirst] = static_cast<float>(std::cos(along_m / 100));
+  image[kFirst + 1] = static_cast<float>(std::sin(along_m / 100));
+  return image;
+}
+
 // Frames a little beyond the end of the line, in tiles of 50 m.
 std::vector<testing::MemorySource::Tile> tiles_of_a_road(ImageDescriptor (*image_of)(double)) {
   constexpr double kTileM = 50;
@@ -61,6 +70,24 @@ std::shared_ptr<testing::MemorySource> one_road() {
       MapVersion{"map", build_of_map('1')}, "wisurf",
       nlohmann::json{{"items", "frames"}, {"focal_px", {400, 400}}});
   map->add(straight("road"), tiles_of_a_road(image_from));
+  return map;
+}
+
+// The road parts into two others at its end.
+std::shared_ptr<testing::MemorySource> a_junction() {
+  const auto branch = [](const char* id, double to_longitude_deg) {
+    const GeoPoint to = {kEnd.latitude_deg + kLengthM / 111229, to_longitude_deg, 110};
+    const std::vector<GeoPoint> vertices = {kEnd, to};
+    return SegmentDescription{id, RouteLine::from_vertices(vertices)->length_m(), vertices, {}};
+  };
+  auto map = std::make_shared<testing::MemorySource>(
+      MapVersion{"map", build_of_map('1')}, "wisurf",
+      nlohmann::json{{"items", "frames"}, {"focal_px", {400, 400}}});
+  SegmentDescription road = straight("road");
+  road.successors = {{"left", "map"}, {"right", "map"}};
+  map->add(road, tiles_of_a_road(image_from));
+  map->add(branch("left", kEnd.longitude_deg - 0.001), tiles_of_a_road(image_of_branch<4>));
+  map->add(branch("right", kEnd.longitude_deg + 0.001), tiles_of_a_road(image_of_branch<6>));
   return map;
 }
 
@@ -285,6 +312,21 @@ TEST_F(LocalizerAndReceiver, AFailingSourceIsRecordedAndLocalizationContinues) {
   }
   EXPECT_GT(along_m, 96);
   EXPECT_LT(along_m, 140);
+}
+
+// The only position of a receiver was at the start.
+TEST_F(LocalizerAndReceiver, WhereNeitherBranchAgreesItTellsNoneUntilOneDoes) {
+  map_ = a_junction();
+  localizer_ = Localizer(map_, {600, 400, 400, 400}, settings());
+  track_to(360);
+  double along_m = 362;
+  for (; along_m < kLengthM; along_m += kSpacingM) fix_of(image_from(along_m));
+  Fix fix;
+  for (int frame = 0; frame < 20; ++frame) fix = fix_of(image_beside(100));
+  EXPECT_FALSE(fix.along_m) << name_of(fix.status);
+  for (int frame = 0; frame < 5; ++frame) fix = fix_of(image_of_branch<6>(10));
+  EXPECT_EQ(fix.segment, "right");
+  EXPECT_NEAR(fix.along_m.value_or(0), 10, kSpacingM);
 }
 
 }  // namespace

@@ -3,65 +3,24 @@
 
 #include <cmath>
 
-#include "client/localize/localizer.h"
-#include "tests/client/localize/landmark_road.h"
+#include "tests/client/localize/road_drive.h"
 
 namespace milepost {
 namespace {
 
+using testing::kReceiverSigmaM;
+using testing::kStepM;
 using testing::LandmarkRoad;
 using testing::RoadPose;
 
-constexpr double kStepM = 1;        // between frames ...
-constexpr double kVehicleMps = 10;  // ... at this speed
-constexpr double kReceiverSigmaM = 5;
-
-class RightOrSilent : public ::testing::Test {
+class RightOrSilent : public testing::RoadDrive {
  protected:
-  static const LandmarkRoad& road() { return testing::shared_road(); }
-
-  // The fix of the next frame, taken at this pose.
-  Fix fix(const RoadPose& truth) { return fix_of(road().observe(truth, 0, random_)); }
-
-  Fix fix_of(const FeatureSet& set) {
-    testing::wait_for_tiles(localizer_, time_s_);
-    const auto fix = localizer_.localize(
-        {time_s_, [&](const FeatureParameters&) -> const FeatureSet& { return set; }});
-    time_s_ += kStepM / kVehicleMps;
-    EXPECT_TRUE(fix.ok()) << fix.error().line();
-    return fix.ok() ? *fix : Fix();
-  }
-
-  void receive(double along_m) {
-    localizer_.observe({time_s_, road().line().point_at(along_m), kReceiverSigmaM});
-  }
-
-  // Tracks from 100 m to the returned arc length, without GNSS.
-  double track() {
-    receive(102);
-    double along_m = 100;
-    FixStatus status = FixStatus::initializing;
-    for (; along_m < 150; along_m += kStepM) status = fix({along_m, 0, 0}).status;
-    EXPECT_EQ(status, FixStatus::tracking);
-    return along_m;
-  }
-
   // Whether the horizontal error is more than a metre and five sigmas.
   static bool is_confidently_wrong(const Fix& fix, const RoadPose& truth) {
     if (!fix.along_m) return false;
     const double off_m = std::hypot(*fix.along_m - truth.along_m, *fix.lateral_m - truth.lateral_m);
     return off_m > std::max(1.0, 5 * std::hypot(fix.sigma_m, *fix.lateral_sigma_m));
   }
-
-  static bool is_right(const Fix& fix, const RoadPose& truth) {
-    return fix.status == FixStatus::tracking && std::abs(*fix.along_m - truth.along_m) < 0.2 &&
-           std::abs(*fix.lateral_m - truth.lateral_m) < 0.2;
-  }
-
-  std::shared_ptr<testing::MemorySource> map_ = testing::map_of(road());
-  Localizer localizer_{map_, road().query_camera(), testing::settings_of_a_short_reach()};
-  double time_s_ = 100;
-  std::mt19937 random_{11};
 };
 
 // The error introduced into the belief during the drive.
@@ -103,24 +62,11 @@ INSTANTIATE_TEST_SUITE_P(ArcLengthAndLateral, PushedAway,
                          ::testing::Values(Push{5, 0}, Push{10, 0}, Push{20, 0}, Push{30, 0},
                                            Push{-10, 0}, Push{0, 3}, Push{0, -8}));
 
-// Features that belong to no landmarks, as many as usual.
-FeatureSet unknown_road(FeatureSet seen, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> x_px(0, LandmarkRoad::kWidthPx);
-  std::uniform_real_distribution<float> y_px(0, LandmarkRoad::kHeightPx);
-  for (Feature& feature : seen.features) {
-    feature.x_px = x_px(random);
-    feature.y_px = y_px(random);
-  }
-  seen.descriptors = testing::unlike_descriptors(seen.size(), seed);
-  return seen;
-}
-
 TEST_F(RightOrSilent, OnAnotherRoadThanTheMapsItClaimsNothing) {
   for (int frame = 0; frame < 40; ++frame) {
     receive(100 + frame);
     const RoadPose at{100.0 + frame, 0, 0};
-    const Fix nowhere = fix_of(unknown_road(road().observe(at, 0, random_), 1000 + frame));
+    const Fix nowhere = fix_of(testing::unknown_road(road().observe(at, 0, random_), 1000 + frame));
     EXPECT_NE(nowhere.status, FixStatus::tracking);
     EXPECT_FALSE(nowhere.along_m) << frame;
   }
@@ -131,7 +77,7 @@ TEST_F(RightOrSilent, OffOnToAnUnknownRoadItIsLost) {
   Fix fix;
   for (int frame = 0; frame < 5; ++frame, along_m += kStepM) {
     receive(along_m);
-    fix = fix_of(unknown_road(road().observe({along_m, 0, 0}, 0, random_), 1000 + frame));
+    fix = fix_of(testing::unknown_road(road().observe({along_m, 0, 0}, 0, random_), 1000 + frame));
     EXPECT_NE(fix.status, FixStatus::tracking);
   }
   EXPECT_EQ(fix.status, FixStatus::lost);
@@ -152,7 +98,7 @@ TEST_F(RightOrSilent, ComingFromBeyondTheMapItIsOffUntilTheMapIsSeen) {
     localizer_.observe({time_s_,
                         {start.latitude_deg - before_m / 111229, start.longitude_deg, 0},
                         kReceiverSigmaM});
-    EXPECT_EQ(fix_of(unknown_road(road().observe({5, 0, 0}, 0, random_), 7)).status,
+    EXPECT_EQ(fix_of(testing::unknown_road(road().observe({5, 0, 0}, 0, random_), 7)).status,
               FixStatus::off_map);
   }
   int frames = 0;
@@ -172,7 +118,7 @@ TEST_F(RightOrSilent, LeavingTheMapItIsOffAndStaysSo) {
   Fix fix;
   for (int frame = 0; frame < 30; ++frame) {
     receive(LandmarkRoad::kLengthM);  // GNSS lags
-    fix = fix_of(unknown_road(road().observe({590, 0, 0}, 0, random_), 1000 + frame));
+    fix = fix_of(testing::unknown_road(road().observe({590, 0, 0}, 0, random_), 1000 + frame));
     EXPECT_NE(fix.status, FixStatus::tracking) << frame;
   }
   EXPECT_EQ(fix.status, FixStatus::off_map);
