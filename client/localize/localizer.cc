@@ -8,6 +8,8 @@
 
 #include "client/localize/branches.h"
 #include "client/localize/hypothesis.h"
+#include "client/localize/hypothesis_fix.h"
+#include "client/localize/recent_relocalizers.h"
 #include "client/localize/relocalization_check.h"
 #include "client/localize/wanted_map.h"
 #include "schema/geo/near.h"
@@ -18,8 +20,6 @@ namespace {
 constexpr double kMaxStartTurnDeg = 60;    // between a known heading and that of a segment
 constexpr double kMaxOdometryAgeS = 0.5;   // of a reading used when a hypothesis starts
 constexpr std::size_t kMaxCandidates = 4;  // segments searched
-constexpr double kElsewhereM = 5;          // minimum sigma of "elsewhere" ...
-constexpr double kUnknownM = 30;           // ... and its sigma without a GNSS fix
 constexpr double kLeftSigmaM = 1;          // minimum sigma of a hypothesis that left the map
 constexpr double kDoubt = -1;              // log Bayes factor of a frame that causes doubt
 
@@ -47,12 +47,6 @@ struct Tracking {
   std::optional<double> doubt = {};
 };
 
-// A segment that was searched recently.
-struct OpenSegment {
-  std::shared_ptr<const SegmentLayer> layer;
-  std::unique_ptr<Relocalizer> relocalizer;
-};
-
 // The result of searching around a position.
 struct NearbySearch {
   // Distance of the nearest segment, infinite if none is near; none while unknown.
@@ -65,17 +59,18 @@ struct NearbySearch {
 struct Localizer::Impl {
   Impl(const std::shared_ptr<MapSource>& source, const Camera& query,
        const LocalizerSettings& given)
-      : camera(query), settings(given), provider(source, given.method.layer, given.provider) {}
+      : settings(given),
+        provider(source, given.method.layer, given.provider),
+        relocalizers(given.method, query, given.method_settings) {}
 
-  Camera camera;
   LocalizerSettings settings;
   TileProvider provider;
+  RecentRelocalizers relocalizers;
 
   std::optional<GnssFix> gnss;       // the latest
   std::optional<Odometry> odometry;  // the latest
   ExpectedRoute route;
   std::variant<Searching, Tracking> state = Searching{};
-  std::vector<OpenSegment> segments;  // recently opened, the latest last
   std::optional<Error> last_error;
 
   Result<Fix> search(SharedFrame& frame);
@@ -86,7 +81,6 @@ struct Localizer::Impl {
   Surroundings surroundings(const GnssFix& around) const;
   double start_reach_m(const GnssFix& around, double timestamp_s) const;
   NearbySearch relocalize_nearby(SharedFrame& frame, const GnssFix& around, Searching& searching);
-  Result<Relocalizer*> relocalizer_on(const std::shared_ptr<const SegmentLayer>& layer);
   double log_bayes_factor_of_return(const Searching& searching, const Hypothesis& found) const;
   void carry(Searching& searching, SharedFrame& frame);
   Fix weighed(Searching& searching, double timestamp_s);
@@ -94,21 +88,11 @@ struct Localizer::Impl {
   void check_by_relocalization(Tracking& tracking, SharedFrame& frame);
   void claim(Hypothesis hypothesis);
   Wants wants(double timestamp_s, const HeldMap& held) const;
-  Fix located(const Hypothesis& hypothesis, FixStatus status) const;
-  Fix located(const Hypothesis& hypothesis, const TrackedPose& position, double timestamp_s,
-              FixStatus status) const;
   void widen(Fix& fix, double log_odds, const Hypothesis& hypothesis,
-             const std::vector<Hypothesis>& hypotheses) const;
+             const std::vector<Hypothesis>& hypotheses = {}) const;
 };
 
 namespace {
-
-Fix unlocated(double timestamp_s, FixStatus status) {
-  Fix fix;
-  fix.timestamp_s = timestamp_s;
-  fix.status = status;
-  return fix;
-}
 
 GnssFix place_of(const Hypothesis& hypothesis, double timestamp_s) {
   const double sigma_m = std::max(hypothesis.tracker->pose().sigma_m, kElsewhereM);
@@ -125,12 +109,6 @@ Searching at_a_junction(std::vector<Hypothesis> branches, double timestamp_s) {
   Searching searching{FixStatus::initializing, std::move(branches)};
   searching.lost_at = place_of(searching.hypotheses.front(), timestamp_s);
   return searching;
-}
-
-// Adds an isotropic variance in the horizontal plane.
-void widen_in_plan(GeoCameraPose& camera, double sigma_m) {
-  camera.covariance[0] += sigma_m * sigma_m;
-  camera.covariance[7] += sigma_m * sigma_m;
 }
 
 // Whether the hypothesis' segment ends within `ahead_m`.
@@ -219,8 +197,8 @@ Fix Localizer::fix_at(double timestamp_s) const {
   const bool is_on_map =
       hypothesis.is_on_segment(position) || leads_on(hypothesis, position, *impl_->provider.held());
   if (!is_on_map) return unlocated(timestamp_s, FixStatus::off_map);
-  Fix fix = impl_->located(hypothesis, position, timestamp_s, FixStatus::predicted);
-  if (tracking->doubt) impl_->widen(fix, *tracking->doubt, hypothesis, {});
+  Fix fix = fix_of(hypothesis, position, timestamp_s, FixStatus::predicted);
+  if (tracking->doubt) impl_->widen(fix, *tracking->doubt, hypothesis);
   return fix;
 }
 
@@ -258,22 +236,6 @@ std::optional<GnssFix> Localizer::Impl::fresh(const std::optional<GnssFix>& posi
   return is_fresh ? position : std::nullopt;
 }
 
-Result<Relocalizer*> Localizer::Impl::relocalizer_on(
-    const std::shared_ptr<const SegmentLayer>& layer) {
-  constexpr std::size_t kKept = 8;
-  const auto known = std::ranges::find(segments, layer, &OpenSegment::layer);
-  if (known != segments.end()) {
-    std::rotate(known, known + 1, segments.end());
-    return segments.back().relocalizer.get();
-  }
-  Result<std::unique_ptr<Relocalizer>> relocalizer =
-      settings.method.make_relocalizer(layer, camera, settings.method_settings);
-  if (!relocalizer) return relocalizer.error();
-  if (segments.size() >= kKept) segments.erase(segments.begin());
-  segments.push_back({layer, std::move(*relocalizer)});
-  return segments.back().relocalizer.get();
-}
-
 // The circle in which segments may be the one that a position is on.
 Surroundings Localizer::Impl::surroundings(const GnssFix& around) const {
   const double radius_m = settings.start_radius_m + settings.start_sigmas * around.sigma_m;
@@ -304,7 +266,7 @@ NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFi
       continue;
     }
     if (!leads_ahead(held->layer->line, where.along_m, around)) continue;
-    const Result<Relocalizer*> relocalizer = relocalizer_on(held->layer);
+    const Result<Relocalizer*> relocalizer = relocalizers.on(held->layer);
     if (!relocalizer) {
       nearby.failure = relocalizer.error();
       continue;
@@ -398,12 +360,12 @@ Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
   const bool was_lost = searching.waiting == FixStatus::lost;
   if (log_odds < 0 || (was_lost && !best.measured)) return unclaimed(searching, timestamp_s);
   if (log_odds < settings.odds.claim || !best.measured || best.apart_m > kAgreedM) {
-    Fix fix = located(best, FixStatus::initializing);
+    Fix fix = fix_of(best, FixStatus::initializing);
     widen(fix, best.odds.log(), best, searching.hypotheses);
     return fix;
   }
   claim(std::move(best));
-  return located(std::get<Tracking>(state).hypothesis, FixStatus::tracking);
+  return fix_of(std::get<Tracking>(state).hypothesis, FixStatus::tracking);
 }
 
 // The result without any hypothesis to tell: off the map the pose that the motion carries on.
@@ -428,7 +390,7 @@ void Localizer::Impl::check_by_relocalization(Tracking& tracking, SharedFrame& f
                       tracking.relocalization_check.is_due(hypothesis.way_m());
   if (!is_due) return;
   const AlongRange around = AlongRange{along_m, along_m}.widened(kSameHypothesisM);
-  const Result<Relocalizer*> relocalizer = relocalizer_on(hypothesis.tracker->layer());
+  const Result<Relocalizer*> relocalizer = relocalizers.on(hypothesis.tracker->layer());
   if (!relocalizer) return;
   Relocalization found =
       (*relocalizer)->relocalize(frame, around, tracking.relocalization_check.camera(hypothesis));
@@ -473,16 +435,16 @@ Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
   tracking.frames_without_measurement =
       hypothesis.measured ? 0 : tracking.frames_without_measurement + 1;
   if (hypothesis.measured && hypothesis.odds.log() >= settings.odds.hold)
-    return located(hypothesis, FixStatus::tracking);
+    return fix_of(hypothesis, FixStatus::tracking);
   const bool is_lost = tracking.frames_without_measurement > settings.max_predicted_frames ||
                        hypothesis.odds.log() < settings.odds.give_up;
   if (!is_lost) {
-    Fix fix = located(hypothesis, FixStatus::predicted);
+    Fix fix = fix_of(hypothesis, FixStatus::predicted);
     // The contradiction may be an occlusion, or the vehicle may be elsewhere.
     const bool in_doubt =
         hypothesis.log_bayes_factor < kDoubt || hypothesis.odds.log() < settings.odds.hold;
     if (in_doubt) tracking.doubt = std::min(hypothesis.odds.log(), settings.odds.doubt);
-    if (tracking.doubt) widen(fix, *tracking.doubt, hypothesis, {});
+    if (tracking.doubt) widen(fix, *tracking.doubt, hypothesis);
     return fix;
   }
   Searching lost = lost_from(hypothesis, frame.timestamp_s());
@@ -492,53 +454,9 @@ Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
   return search(frame);
 }
 
-Fix Localizer::Impl::located(const Hypothesis& hypothesis, FixStatus status) const {
-  Fix fix = located(hypothesis, hypothesis.tracker->pose(), hypothesis.timestamp_s, status);
-  fix.matches = hypothesis.measured ? hypothesis.matches : 0;
-  return fix;
-}
-
-Fix Localizer::Impl::located(const Hypothesis& hypothesis, const TrackedPose& position,
-                             double timestamp_s, FixStatus status) const {
-  const RouteLine& line = hypothesis.layer().line;
-  Fix fix = unlocated(timestamp_s, status);
-  fix.version = hypothesis.layer().key.version;
-  fix.segment = hypothesis.layer().key.segment;
-  fix.along_m = std::clamp(position.along_m, 0.0, line.length_m());
-  fix.sigma_m = std::hypot(position.sigma_m, hypothesis.apart_m);
-  fix.position = line.point_at(*fix.along_m);
-  if (position.full) {
-    fix.lateral_m = position.full->lateral_m;
-    fix.lateral_sigma_m = std::hypot(position.full->lateral_sigma_m, hypothesis.apart_m);
-    fix.camera = position.full->camera;
-    widen_in_plan(*fix.camera, hypothesis.apart_m);
-    fix.heading_deg = fix.camera->heading_deg;
-    fix.position = fix.camera->position;
-  }
-  return fix;
-}
-
-// Widens the sigmas of an uncertain hypothesis to cover all hypotheses and "elsewhere", which is at
-// the GNSS fix if there is one.
 void Localizer::Impl::widen(Fix& fix, double log_odds, const Hypothesis& hypothesis,
                             const std::vector<Hypothesis>& hypotheses) const {
-  const GeoPoint here = hypothesis.position();
-  double weights = 1 + std::exp(log_odds);
-  double square_m2 = kUnknownM * kUnknownM;
-  if (const auto reading = fresh(gnss, hypothesis.timestamp_s)) {
-    const double sigma_m = std::max(kElsewhereM, reading->sigma_m);
-    square_m2 = sigma_m * sigma_m + std::pow(geodesic_distance_m(here, reading->position), 2);
-  }
-  for (const Hypothesis& other : hypotheses) {
-    if (&other == &hypothesis) continue;
-    const double weight = std::exp(other.odds.log());
-    weights += weight;
-    square_m2 += weight * std::pow(geodesic_distance_m(here, other.position()), 2);
-  }
-  const double spread_m = std::sqrt(square_m2 / weights);
-  fix.sigma_m = std::hypot(fix.sigma_m, spread_m);
-  if (fix.lateral_sigma_m) fix.lateral_sigma_m = std::hypot(*fix.lateral_sigma_m, spread_m);
-  if (fix.camera) widen_in_plan(*fix.camera, spread_m);
+  milepost::widen(fix, log_odds, hypothesis, hypotheses, fresh(gnss, hypothesis.timestamp_s));
 }
 
 // The map data that a frame at that time, and those after it, need.
