@@ -79,16 +79,15 @@ Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettin
     if (!of_drive) return of_drive.error();
     lines.push_back(std::move(*of_drive));
   }
-  PassChoice choice(*sorted, lines, settings, jobs);
+  PassFrames frames(*sorted, lines, jobs);
+  PassChoice choice(frames, settings);
+  PassComparison comparison(frames, settings);
   NetworkSettings of_network;
   if (settings.division) of_network.junction.border = settings.division->border;
-  PassComparison comparison(*sorted, lines, settings, jobs);
   const RoadNetwork network = road_network(
       lines, of_network, [&](const std::vector<Pass>& passes) { return choice.best(passes); },
       [&](const Pass& a, const Pass& b) { return comparison.show_the_same_road(a, b); });
-  for (const std::optional<Error>& failure : {choice.failure(), comparison.failure()}) {
-    if (failure) return *failure;
-  }
+  if (frames.failure()) return *frames.failure();
 
   BuildPlan plan;
   plan.findings = network.findings;

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "mapper/pipeline/frame_pipeline.h"
-#include "mapper/pipeline/pass_frames.h"
-
 namespace milepost {
 namespace {
 
@@ -13,11 +10,6 @@ constexpr double kAboutEqual = 0.95;    // of the features of the richest
 
 }  // namespace
 
-PassChoice::PassChoice(const std::vector<const Drive*>& drives,
-                       const std::vector<NamedDrivenLines>& lines, const BuildSettings& settings,
-                       int jobs)
-    : drives_(drives), lines_(lines), settings_(settings), jobs_(jobs) {}
-
 std::size_t PassChoice::best(const std::vector<Pass>& passes) {
   if (passes.size() == 1) return 0;
   return settings_.passes == PassPolicy::replace ? latest(passes) : richest(passes);
@@ -25,7 +17,7 @@ std::size_t PassChoice::best(const std::vector<Pass>& passes) {
 
 std::size_t PassChoice::latest(const std::vector<Pass>& passes) const {
   const auto last = std::ranges::max_element(
-      passes, {}, [&](const Pass& pass) { return drives_[pass.drive]->captured; });
+      passes, {}, [&](const Pass& pass) { return frames_.drive_of(pass).captured; });
   return static_cast<std::size_t>(last - passes.begin());
 }
 
@@ -43,22 +35,14 @@ std::size_t PassChoice::richest(const std::vector<Pass>& passes) {
 }
 
 PassChoice::Quality PassChoice::quality_of(const Pass& pass) {
-  const DrivenLine& driven = lines_[pass.drive].lines[pass.stretch];
-  const std::vector<std::size_t> all = frames_on(pass, driven);
-  const std::vector<std::size_t> some = spread_evenly(all, kPassFrames);
+  const std::vector<std::size_t> all = frames_.on(pass);
   FeatureParameters every = settings_.feature;
   every.max_features = 0;  // or good frames would all be equal
-  FramePipeline frames(*drives_[pass.drive], some, every, false, jobs_);
+  const auto some = frames_.features(pass, spread_evenly(all, kPassFrames), every);
+  if (!some) return {};
   double features = 0;
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    const Result<ExtractedFrame> frame = frames.next();
-    if (!frame) {
-      if (!failure_) failure_ = frame.error();
-      return {};
-    }
-    features += static_cast<double>(frame->features.size());
-  }
-  return {features / static_cast<double>(some.size()),
+  for (const FeatureSet& frame : *some) features += static_cast<double>(frame.size());
+  return {features / static_cast<double>(some->size()),
           (pass.to_m - pass.from_m) / static_cast<double>(all.size())};
 }
 

@@ -1,16 +1,11 @@
 // Chooses, of several passes of a road, the one whose line and landmarks its segment takes.
 #pragma once
 
-#include <map>
-#include <optional>
-#include <utility>
 #include <vector>
 
-#include "mapper/network/driven_line.h"
 #include "mapper/network/road_network.h"
+#include "mapper/pipeline/pass_frames.h"
 #include "mapper/pipeline/settings.h"
-#include "schema/base/result.h"
-#include "schema/drive/drive.h"
 
 namespace milepost {
 
@@ -20,15 +15,12 @@ namespace milepost {
 // use from several threads at once.
 class PassChoice {
  public:
-  // REQUIRES: drives, sorted by name, and their lines outlive it.
-  PassChoice(const std::vector<const Drive*>& drives, const std::vector<NamedDrivenLines>& lines,
-             const BuildSettings& settings, int jobs);
+  // REQUIRES: the frames outlive it, and hold the error of one that cannot be read.
+  PassChoice(PassFrames& frames, const BuildSettings& settings)
+      : frames_(frames), settings_(settings) {}
 
   // An index into `passes`, which are sorted by the drive's name.
   std::size_t best(const std::vector<Pass>& passes);
-
-  // The first error of a frame: one of FrameReader::gray.
-  const std::optional<Error>& failure() const { return failure_; }
 
  private:
   struct Quality {
@@ -40,11 +32,8 @@ class PassChoice {
   std::size_t latest(const std::vector<Pass>& passes) const;
   std::size_t richest(const std::vector<Pass>& passes);
 
-  const std::vector<const Drive*>& drives_;
-  const std::vector<NamedDrivenLines>& lines_;
+  PassFrames& frames_;
   const BuildSettings& settings_;
-  int jobs_;
-  std::optional<Error> failure_;
 };
 
 }  // namespace milepost

@@ -5,8 +5,6 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "mapper/pipeline/frame_pipeline.h"
-#include "mapper/pipeline/pass_frames.h"
 #include "schema/feature/descriptor_index.h"
 #include "schema/geo/geodesy.h"
 
@@ -81,34 +79,24 @@ bool agree(const PointPairs& pairs) {
 }  // namespace
 
 std::optional<bool> PassComparison::show_the_same_road(const Pass& a, const Pass& b) {
-  const Drive& drive_a = *drives_[a.drive];
-  const Drive& drive_b = *drives_[b.drive];
-  const auto pairs = pairs_of(drive_a, frames_on(a, lines_[a.drive].lines[a.stretch]), drive_b,
-                              frames_on(b, lines_[b.drive].lines[b.stretch]));
+  const auto pairs =
+      pairs_of(frames_.drive_of(a), frames_.on(a), frames_.drive_of(b), frames_.on(b));
   std::vector<std::size_t> indices_a;
   std::vector<std::size_t> indices_b;
   for (const FramePair& pair : pairs) {
     indices_a.push_back(pair.a);
     indices_b.push_back(pair.b);
   }
-  FramePipeline frames_a(drive_a, indices_a, settings_.feature, false, jobs_);
-  FramePipeline frames_b(drive_b, indices_b, settings_.feature, false, jobs_);
+  const auto features_a = frames_.features(a, indices_a, settings_.feature);
+  const auto features_b = frames_.features(b, indices_b, settings_.feature);
+  if (!features_a || !features_b) return std::nullopt;
   std::size_t same = 0;
   std::size_t other = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Result<ExtractedFrame> frame_a = frames_a.next();
-    const Result<ExtractedFrame> frame_b = frames_b.next();
-    for (const auto* frame : {&frame_a, &frame_b}) {
-      if (*frame) continue;
-      if (!failure_) failure_ = frame->error();
-      return std::nullopt;
-    }
-    const FeatureSet& features_a = frame_a->features;
-    const FeatureSet& features_b = frame_b->features;
-    if (std::min(features_a.size(), features_b.size()) < kSeeingFeatures) continue;
-    const bool is_same =
-        agree(matches_of(features_a, features_b, settings_.follow.max_distance_ratio));
-    ++(is_same ? same : other);
+    const FeatureSet& of_a = (*features_a)[i];
+    const FeatureSet& of_b = (*features_b)[i];
+    if (std::min(of_a.size(), of_b.size()) < kSeeingFeatures) continue;
+    ++(agree(matches_of(of_a, of_b, settings_.follow.max_distance_ratio)) ? same : other);
   }
   if (same > 1 && same > other) return true;
   constexpr std::size_t kLeastPairs = 3;

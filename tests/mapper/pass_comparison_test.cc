@@ -60,9 +60,10 @@ Compared compared(const Drive& a, const Drive& b) {
     passes.push_back({passes.size(), 0, 0, lines.back().lines.front().line.length_m()});
   }
   const BuildSettings settings;
-  PassComparison comparison(drives, lines, settings, 2);
+  PassFrames frames(drives, lines, 2);
+  PassComparison comparison(frames, settings);
   const std::optional<bool> same = comparison.show_the_same_road(passes[0], passes[1]);
-  return {same, comparison.failure()};
+  return {same, frames.failure()};
 }
 
 TEST(PassComparison, TwoDrivesOfOneStreetShowTheSame) {
