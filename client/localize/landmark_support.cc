@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -17,45 +18,78 @@ constexpr double kBorderPx = 8;      // in which SIFT detects no features
 // in position and scale that it could be a match.
 constexpr double kTexturePx = 12;
 
-struct Weighted {
-  double value = 0;
+// Mixtures as measured over recorded drives, original and degraded, and over simulated ones in
+// other light and lanes: at the true pose, and at the best fitting poses elsewhere on the map
+// (DECISIONS 31). Of the detection rate of landmarks ...
+struct Rate {
+  double found = 0;
   double weight = 0;
 };
-
-// Mixtures of the detection rate of landmarks, and of the variance of their residuals in squared
-// sigmas, as measured over recorded drives, original and degraded: at the true pose ...
-constexpr std::array<Weighted, 6> kFoundHere = {
+constexpr std::array<Rate, 6> kRatesHere = {
     {{0.08, 0.1}, {0.16, 0.1}, {0.3, 0.2}, {0.5, 0.2}, {0.7, 0.2}, {0.86, 0.2}}};
-constexpr std::array<Weighted, 4> kVarianceHere = {
-    {{0.2, 0.2}, {0.45, 0.3}, {0.8, 0.3}, {1.2, 0.2}}};
-// ... and at the best fitting poses elsewhere on the map (DECISIONS 31).
-constexpr std::array<Weighted, 5> kFoundElsewhere = {
+constexpr std::array<Rate, 5> kRatesElsewhere = {
     {{0.01, 0.15}, {0.03, 0.2}, {0.08, 0.3}, {0.15, 0.25}, {0.3, 0.1}}};
-constexpr std::array<Weighted, 4> kVarianceElsewhere = {
-    {{0.4, 0.1}, {1.2, 0.25}, {2.5, 0.4}, {6, 0.25}}};
 
-// The log-likelihood of a support for a detection rate and residual lengths with a truncated
-// Rayleigh distribution of that variance, up to a constant.
-double log_likelihood(const LandmarkSupport& support, double found, double variance) {
-  const double normal = variance * (1 - std::exp(-kCutoffSigmas * kCutoffSigmas / (2 * variance)));
-  return support.found * (std::log(found) - std::log(normal)) +
-         (support.expected - support.found) * std::log(1 - found) -
-         support.squared_sigmas / (2 * variance);
+// ... and of their residuals: right matches have a Rayleigh distribution of this variance in
+// squared sigmas, truncated at the cutoff; wrong ones are spread evenly over the area within it.
+struct Residuals {
+  double variance = 0;
+  double wrong = 0;  // share of matches
+  double weight = 0;
+};
+constexpr std::array<Residuals, 5> kResidualsHere = {
+    {{0.05, 0.1, 0.2}, {0.1, 0.25, 0.3}, {0.25, 0.25, 0.25}, {0.5, 0.3, 0.15}, {1, 0.3, 0.1}}};
+constexpr std::array<Residuals, 5> kResidualsElsewhere = {
+    {{0.1, 0.3, 0.03}, {0.45, 0.6, 0.27}, {0.8, 0.4, 0.3}, {1.2, 0.4, 0.25}, {2.5, 0.4, 0.15}}};
+
+using LogProbabilities = std::array<double, LandmarkSupport::kResidualBins>;
+
+constexpr double kBinSigmas = kCutoffSigmas / LandmarkSupport::kResidualBins;
+
+LogProbabilities log_probabilities(const Residuals& residuals) {
+  const auto right_within = [&](double sigmas) {
+    return std::expm1(-sigmas * sigmas / (2 * residuals.variance)) /
+           std::expm1(-kCutoffSigmas * kCutoffSigmas / (2 * residuals.variance));
+  };
+  const auto within = [&](double sigmas) {
+    return (1 - residuals.wrong) * right_within(sigmas) +
+           residuals.wrong * sigmas * sigmas / (kCutoffSigmas * kCutoffSigmas);
+  };
+  LogProbabilities logs;
+  for (std::size_t bin = 0; bin < logs.size(); ++bin) {
+    const double from_sigmas = static_cast<double>(bin) * kBinSigmas;
+    logs[bin] = std::log(within(from_sigmas + kBinSigmas) - within(from_sigmas));
+  }
+  return logs;
 }
 
-double log_mixture(const LandmarkSupport& support, std::span<const Weighted> found,
-                   std::span<const Weighted> variance) {
-  double highest = -1e300;
-  std::vector<double> terms;
-  for (const Weighted& f : found) {
-    for (const Weighted& v : variance) {
-      terms.push_back(std::log(f.weight * v.weight) + log_likelihood(support, f.value, v.value));
-      highest = std::max(highest, terms.back());
-    }
-  }
+double log_of_sum(std::span<const double> logs) {
+  const double highest = *std::ranges::max_element(logs);
   double sum = 0;
-  for (const double term : terms) sum += std::exp(term - highest);
+  for (const double log : logs) sum += std::exp(log - highest);
   return highest + std::log(sum);
+}
+
+template <std::size_t kCount>
+double log_likelihood(const LandmarkSupport& support, const std::array<Rate, kCount>& mixture) {
+  std::array<double, kCount> terms;
+  std::ranges::transform(mixture, terms.begin(), [&](const Rate& rate) {
+    return std::log(rate.weight) + support.found * std::log(rate.found) +
+           (support.expected - support.found) * std::log(1 - rate.found);
+  });
+  return log_of_sum(terms);
+}
+
+template <std::size_t kCount>
+double log_likelihood(const LandmarkSupport& support,
+                      const std::array<Residuals, kCount>& mixture) {
+  std::array<double, kCount> terms;
+  std::ranges::transform(mixture, terms.begin(), [&](const Residuals& residuals) {
+    const LogProbabilities logs = log_probabilities(residuals);
+    return std::inner_product(logs.begin(), logs.end(), support.by_residual.begin(),
+                              std::log(residuals.weight));
+  });
+  return log_of_sum(terms);
 }
 
 bool is_inside(const Eigen::Vector2d& pixel, const Camera& camera) {
@@ -86,7 +120,7 @@ LandmarkSupport support_of(const PoseEstimate& estimate, double along_m, const C
   struct Cell {
     int expected = 0;
     int found = 0;
-    double squared_sigmas = 0;
+    std::array<int, LandmarkSupport::kResidualBins> by_residual{};
   };
   std::map<std::pair<int, int>, Cell> cells;
   std::map<std::size_t, double> sigmas;  // of the landmarks found
@@ -116,19 +150,22 @@ LandmarkSupport support_of(const PoseEstimate& estimate, double along_m, const C
     if (found == sigmas.end()) continue;
     ++cell.found;
     ++support.landmarks_found;
-    cell.squared_sigmas += found->second * found->second;
+    const auto bin = static_cast<std::size_t>(found->second / kBinSigmas);
+    ++cell.by_residual[std::min(bin, LandmarkSupport::kResidualBins - 1)];
   }
   for (const auto& [place, cell] : cells) {
     support.expected += 1;
     support.found += static_cast<double>(cell.found) / cell.expected;
-    support.squared_sigmas += cell.squared_sigmas / cell.expected;
+    for (std::size_t bin = 0; bin < cell.by_residual.size(); ++bin) {
+      support.by_residual[bin] += static_cast<double>(cell.by_residual[bin]) / cell.expected;
+    }
   }
   return support;
 }
 
 double log_bayes_factor(const LandmarkSupport& support) {
-  return log_mixture(support, kFoundHere, kVarianceHere) -
-         log_mixture(support, kFoundElsewhere, kVarianceElsewhere);
+  return log_likelihood(support, kRatesHere) - log_likelihood(support, kRatesElsewhere) +
+         log_likelihood(support, kResidualsHere) - log_likelihood(support, kResidualsElsewhere);
 }
 
 }  // namespace milepost

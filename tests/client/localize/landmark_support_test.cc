@@ -1,6 +1,9 @@
 #include "client/localize/landmark_support.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "tests/client/localize/landmark_road.h"
 #include "tests/client/localize/landmark_scene.h"
@@ -15,31 +18,50 @@ constexpr Camera kImage = {620, 380, kSceneCamera};
 constexpr AlongRange kMapped = {0, 10};  // where all landmarks were seen from
 constexpr double kAlongM = 5;
 
-LandmarkSupport support(double expected, double found, double squared_sigmas_each) {
-  return {expected, found, found * squared_sigmas_each, 0, 0};
+// Matches with a share of wrong ones, the others with residuals of this standard deviation.
+LandmarkSupport support(double expected, double found, double sigmas, double wrong = 0) {
+  constexpr double kCutoff = 4;
+  LandmarkSupport made{.expected = expected, .found = found};
+  const auto within = [&](double up_to) {
+    const auto rayleigh = [&](double r) { return 1 - std::exp(-r * r / (2 * sigmas * sigmas)); };
+    return (1 - wrong) * rayleigh(up_to) / rayleigh(kCutoff) +
+           wrong * up_to * up_to / (kCutoff * kCutoff);
+  };
+  const double bin = kCutoff / static_cast<double>(made.by_residual.size());
+  for (std::size_t i = 0; i < made.by_residual.size(); ++i) {
+    const double from = static_cast<double>(i) * bin;
+    made.by_residual[i] = found * (within(from + bin) - within(from));
+  }
+  return made;
 }
 
 TEST(LogBayesFactor, NothingExpectedIsNeutral) {
-  EXPECT_NEAR(log_bayes_factor(support(0, 0, 0)), 0, 1e-9);
+  EXPECT_NEAR(log_bayes_factor(support(0, 0, 1)), 0, 1e-9);
 }
 
 TEST(LogBayesFactor, MostFoundInTheirPlacesIsInFavour) {
-  EXPECT_GT(log_bayes_factor(support(30, 25, 0.6)), 15);
-  EXPECT_GT(log_bayes_factor(support(30, 12, 1.5)), 2);  // out of focus
+  EXPECT_GT(log_bayes_factor(support(30, 25, 0.4)), 15);
+  EXPECT_GT(log_bayes_factor(support(30, 12, 1)), 1);  // out of focus
+}
+
+// In other light a part of the matches is wrong, and the others are as exact as ever.
+TEST(LogBayesFactor, WrongMatchesAmongExactOnesDoNotSpeakAgainst) {
+  EXPECT_GT(log_bayes_factor(support(38, 18, 0.5, 0.4)), 4);
+  EXPECT_LT(log_bayes_factor(support(38, 18, 1, 0.6)), log_bayes_factor(support(38, 18, 0.5, 0.4)));
 }
 
 TEST(LogBayesFactor, FewFoundIsAgainst) {
-  EXPECT_LT(log_bayes_factor(support(30, 1.2, 4)), -2);
-  EXPECT_LT(log_bayes_factor(support(30, 0, 0)), -3);
+  EXPECT_LT(log_bayes_factor(support(30, 1.2, 2)), -2);
+  EXPECT_LT(log_bayes_factor(support(30, 0, 1)), -3);
 }
 
 TEST(LogBayesFactor, FoundWithLargeResidualsIsAgainst) {
-  EXPECT_GT(log_bayes_factor(support(30, 8, 0.8)), 1);
-  EXPECT_LT(log_bayes_factor(support(30, 8, 6)), -1);
+  EXPECT_GT(log_bayes_factor(support(30, 8, 0.5)), 1);
+  EXPECT_LT(log_bayes_factor(support(30, 8, 2, 0.5)), -1);
 }
 
 TEST(LogBayesFactor, MoreCellsCountMore) {
-  EXPECT_GT(log_bayes_factor(support(40, 32, 0.6)), 2 * log_bayes_factor(support(10, 8, 0.6)));
+  EXPECT_GT(log_bayes_factor(support(40, 32, 0.4)), 2 * log_bayes_factor(support(10, 8, 0.4)));
 }
 
 class SupportOf : public ::testing::Test {
@@ -75,14 +97,14 @@ TEST_F(SupportOf, AllFoundInTheirPlaces) {
   EXPECT_GT(all.found, 0.95 * all.expected);
   EXPECT_GT(all.expected, 20);
   EXPECT_LT(all.expected, 100);  // cells, not landmarks
-  EXPECT_LT(all.squared_sigmas, 1e-3);
+  EXPECT_NEAR(all.by_residual.front(), all.found, 1e-9);
 }
 
 TEST_F(SupportOf, NothingFound) {
   const LandmarkSupport none = support({});
   EXPECT_GT(none.expected, 20);
   EXPECT_EQ(none.found, 0);
-  EXPECT_EQ(none.squared_sigmas, 0);
+  EXPECT_THAT(none.by_residual, ::testing::Each(0));
 }
 
 TEST_F(SupportOf, HalfOfThemFound) {
