@@ -1,7 +1,9 @@
 #include "client/localize/pose_solver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Dense>
 
@@ -174,16 +176,31 @@ bool PoseSolver::step(const PoseBelief& before, const StateMatrix& before_inform
   return true;
 }
 
+// By the median of the inliers' residuals: of two coordinates their length has a Rayleigh
+// distribution.
+double PoseSolver::biweight_cutoff(const StateVector& state,
+                                   const std::vector<LandmarkMatch>& matches) const {
+  const double median_of_rayleigh = std::sqrt(2 * std::numbers::ln2);
+  std::vector<double> inliers = pixel_sigmas(state, matches);
+  std::erase_if(inliers, [&](double sigmas) { return sigmas >= settings_.cutoff; });
+  if (inliers.empty()) return settings_.cutoff;
+  const auto middle = inliers.begin() + static_cast<std::ptrdiff_t>(inliers.size() / 2);
+  std::ranges::nth_element(inliers, middle);
+  return std::clamp(settings_.biweight_deviations * *middle / median_of_rayleigh,
+                    settings_.min_biweight_cutoff, settings_.cutoff);
+}
+
 PoseEstimate PoseSolver::estimate(const PoseBelief& before, const StateVector& initial,
                                   const std::vector<LandmarkMatch>& matches) const {
   const StateMatrix before_information = before.P.inverse();
   StateVector state = initial;
   StateMatrix information = before_information;
   const auto gently = [&](double sigmas) { return cauchy_weight(sigmas, settings_.cauchy); };
-  const auto strictly = [&](double sigmas) { return biweight(sigmas, settings_.cutoff); };
   for (int i = 0; i < settings_.iterations; ++i) {
     if (!step(before, before_information, matches, gently, state, information)) break;
   }
+  const double cutoff = biweight_cutoff(state, matches);
+  const auto strictly = [&](double sigmas) { return biweight(sigmas, cutoff); };
   for (int i = 0; i < settings_.iterations; ++i) {
     if (!step(before, before_information, matches, strictly, state, information)) break;
   }

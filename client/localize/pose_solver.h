@@ -29,8 +29,13 @@ struct PoseSolverSettings {
   double scale_sigma = 0.12;         // of the logarithm of a feature's scale, plus ...
   double shared_scale_sigma = 0.05;  // ... a part shared by all of a frame: blur enlarges all
   double cauchy = 2;                 // Cauchy weight at first: 1/2 at this many sigmas ...
-  double cutoff = 4;                 // ... then Tukey's biweight: 0 from this many sigmas on
-  int iterations = 6;                // with each of the two weights
+  // ... then Tukey's biweight: 0 from this many robust standard deviations of the residuals on, and
+  // from no fewer sigmas than `min_biweight_cutoff`. Sigmas are wide enough for wrong matches to
+  // lie within them.
+  double biweight_deviations = 2.5;
+  double min_biweight_cutoff = 1.5;
+  double cutoff = 4;   // of inliers, in sigmas
+  int iterations = 6;  // with each of the two weights
 };
 
 struct PoseEstimate {
@@ -64,6 +69,7 @@ class PoseSolver {
   bool look(const View& view, const LandmarkMatch& match, Seen& at) const;
   void linearize(const View& view, const LandmarkMatch& match, const Seen& seen,
                  Linearized& at) const;
+  double biweight_cutoff(const StateVector& state, const std::vector<LandmarkMatch>& matches) const;
   template <class Weight>
   bool step(const PoseBelief& before, const StateMatrix& before_information,
             const std::vector<LandmarkMatch>& matches, const Weight& weight, StateVector& state,
