@@ -98,6 +98,7 @@ TrackingResult Hypothesis::advance(SharedFrame& frame) {
   timestamp_s = frame.timestamp_s();
   measured = result.measured;
   matches = result.matches;
+  contradicted = result.contradicted;
   log_bayes_factor = result.log_bayes_factor;
   weighed = false;
   apart_m = 0;
@@ -109,8 +110,9 @@ std::optional<Hypothesis> Hypothesis::continued_on(
     const std::shared_ptr<const SegmentLayer>& successor, double begin_m) const {
   auto continued = tracker->continued_on(successor, begin_m);
   if (!continued) return std::nullopt;
-  Hypothesis there{std::move(continued), odds,    receiver, timestamp_s,  measured,
-                   log_bayes_factor,     matches, weighed,  way_before_m, apart_m};
+  Hypothesis there{
+      std::move(continued), odds,    receiver,     timestamp_s, measured, log_bayes_factor, matches,
+      contradicted,         weighed, way_before_m, apart_m};
   there.way_before_m += begin_m;
   return there;
 }

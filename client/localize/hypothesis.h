@@ -32,7 +32,8 @@ struct Hypothesis {
   bool measured = false;        // whether it was measured
   double log_bayes_factor = 0;  // of the last frame
   int matches = 0;
-  bool weighed = false;  // whether the last frame is included in the odds
+  bool contradicted = false;  // by the last frame
+  bool weighed = false;       // whether the last frame is included in the odds
   // The way driven is the arc length plus this: that of segments driven before.
   double way_before_m = 0;
   // Distance to an independently found pose with about as many inliers in the last frame, in

@@ -156,8 +156,10 @@ void LandmarkTracker::measure(const CompactFrame& frame, const PoseBelief& befor
   if (estimate && result.log_bayes_factor >= least) {
     accept(*estimate, support, frame, result);
   } else if (static_cast<int>(frame.features.size()) >= method().min_seeing_features) {
-    result.log_bayes_factor =
-        std::min(result.log_bayes_factor, method().log_bayes_factor_of_nothing);
+    result.contradicted = true;
+    if (!estimate)
+      result.log_bayes_factor =
+          std::min(result.log_bayes_factor, method().log_bayes_factor_of_nothing);
   }
 }
 

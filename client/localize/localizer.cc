@@ -441,8 +441,8 @@ Result<Fix> Localizer::Impl::track(SharedFrame& frame) {
   if (!is_lost) {
     Fix fix = fix_of(hypothesis, FixStatus::predicted);
     // The contradiction may be an occlusion, or the vehicle may be elsewhere.
-    const bool in_doubt =
-        hypothesis.log_bayes_factor < kDoubt || hypothesis.odds.log() < settings.odds.hold;
+    const bool in_doubt = hypothesis.contradicted || hypothesis.log_bayes_factor < kDoubt ||
+                          hypothesis.odds.log() < settings.odds.hold;
     if (in_doubt) tracking.doubt = std::min(hypothesis.odds.log(), settings.odds.doubt);
     if (tracking.doubt) widen(fix, *tracking.doubt, hypothesis);
     return fix;

@@ -16,8 +16,9 @@ namespace milepost {
 
 // The result of tracking one frame.
 struct TrackingResult {
-  bool measured = false;  // the belief was updated by a measurement, not only propagated
-  int matches = 0;        // inliers
+  bool measured = false;      // the belief was updated by a measurement, not only propagated
+  int matches = 0;            // inliers
+  bool contradicted = false;  // the frame shows enough, but not what was predicted
   // Log Bayes factor of the frame for "the camera is where it is tracked" against "elsewhere"; 0
   // without a measurement.
   double log_bayes_factor = 0;
