@@ -52,7 +52,8 @@ std::vector<Place> CrossSections::places(const Place& place) const {
     const double off_state_m =
         from.along_m - static_cast<double>(nearest_state(ways_[from.way], from.along_m));
     for (const Place& partner : partners(from)) {
-      const Place beside{partner.way, partner.along_m + off_state_m};
+      const double along_m = partner.along_m + off_state_m;
+      const Place beside{partner.way, std::clamp(along_m, 0.0, ways_[partner.way].length_m)};
       if (!holds(found, beside)) found.push_back(beside);
     }
   }

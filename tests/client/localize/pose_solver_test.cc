@@ -111,10 +111,25 @@ TEST(PoseSolver, FindsHowFarTheCalibrationIsOff) {
   EXPECT_NEAR(estimate.belief.x[kPrincipalY], 0, 1e-3);
 }
 
+// In other light many matches are wrong by no more than the search gate, and the others exact.
+TEST(PoseSolver, WrongMatchesWithinTheSigmasHardlyPull) {
+  LandmarkScene scene(100);
+  for (std::size_t i = 0; i < 35; ++i) scene.features[i].x_px += 2.5F;
+  const PoseBelief before = LandmarkScene::belief(beside(scene, 0.1, 0.3), 0.2, 0.5);
+  const PoseEstimate estimate = solver_of(scene).estimate(before, before.x, scene.matches);
+  EXPECT_LT(position_error_m(estimate.belief, scene.pose), 0.005);
+  PoseSolverSettings wide;
+  wide.biweight_deviations = 100;
+  const PoseEstimate pulled = solver_of(scene, wide).estimate(before, before.x, scene.matches);
+  EXPECT_GT(position_error_m(pulled.belief, scene.pose),
+            3 * position_error_m(estimate.belief, scene.pose));
+}
+
 TEST(PoseSolver, ItsCovarianceIsConsistent) {
   constexpr int kTrials = 300;
   PoseSolverSettings settings;
-  settings.cauchy = settings.cutoff = 100;  // Gaussian noise: nothing is cut off
+  // Gaussian noise: nothing is cut off.
+  settings.cauchy = settings.cutoff = settings.biweight_deviations = 100;
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   double sum = 0;
