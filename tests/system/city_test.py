@@ -57,14 +57,14 @@ class City(CommandTest):
         figures = self.evaluated(self.maps, "out")
         self.assertEqual(figures["localized_frames"], figures["frames"])
         self.assertEqual(figures["wrong_segment_frames"], 0)
-        self.assertLess(figures["mean_error_m"], 0.02)
-        self.assertLess(figures["mean_lateral_error_m"], 0.02)
-        self.assertLess(figures["max_distance_m"], 0.9)
+        self.assertLess(figures["mean_error_m"], 0.011)  # 0.008 is usual with this small camera
+        self.assertLess(figures["mean_lateral_error_m"], 0.011)
+        self.assertLess(figures["max_distance_m"], 0.15)
         self.assertLess(figures["map_kb_per_m"], 0.485)
         rows = rows_of(self.folder / "out" / "fixes-milepost.csv")
         driven = {row["segment"] for row in rows}
         self.assertEqual(driven, {road["id"] for road in self.roads(self.map)})
-        self.assertGreater(sum(row["status"] == "tracking" for row in rows), 0.92 * len(rows))
+        self.assertGreater(sum(row["status"] == "tracking" for row in rows), 0.97 * len(rows))
 
     def test_from_map_to_map_is_as_through_a_junction(self):
         tour = rows_of(self.city / "city-1-tour" / "gps.csv")
