@@ -22,8 +22,8 @@ struct LandmarkMethod {
   double min_log_bayes_factor = 0;
   double min_usual_part = 0.15;
   double min_relocalized_log_bayes_factor = 2;  // ... and this, if found by global matching.
-  // If a frame with at least min_seeing_features is not used, its log Bayes factor is set to at
-  // most log_bayes_factor_of_nothing.
+  // A frame with at least min_seeing_features that is not used contradicts the belief; if no pose
+  // near it fits, its log Bayes factor is set to at most log_bayes_factor_of_nothing.
   int min_seeing_features = 30;
   double log_bayes_factor_of_nothing = -3;
 

@@ -15,7 +15,7 @@ namespace milepost {
 // use from several threads at once.
 class PassChoice {
  public:
-  // REQUIRES: the frames outlive it, and hold the error of one that cannot be read.
+  // REQUIRES: the frames outlive it. The error of a frame that cannot be read is theirs to tell.
   PassChoice(PassFrames& frames, const BuildSettings& settings)
       : frames_(frames), settings_(settings) {}
 

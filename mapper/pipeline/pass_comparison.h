@@ -14,7 +14,7 @@ namespace milepost {
 // several threads at once.
 class PassComparison {
  public:
-  // REQUIRES: the frames outlive it, and hold the error of one that cannot be read.
+  // REQUIRES: the frames outlive it. The error of a frame that cannot be read is theirs to tell.
   PassComparison(PassFrames& frames, const BuildSettings& settings)
       : frames_(frames), settings_(settings) {}
 

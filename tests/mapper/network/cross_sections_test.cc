@@ -15,7 +15,7 @@ Way way_of(std::size_t drive, std::size_t metres) {
   return way;
 }
 
-// Way 1 begins 0.8 m beyond the begin of way 0, and ends 0.2 m beyond its end.
+// Way 1 begins some 0.8 m beyond the begin of way 0; they end together.
 TEST(CrossSections, PlacesLieOnTheirWays) {
   const std::vector<Way> ways = {way_of(0, 10), way_of(1, 9)};
   Alignment beside{0, 1, 1, {}};
