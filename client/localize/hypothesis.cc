@@ -110,9 +110,8 @@ std::optional<Hypothesis> Hypothesis::continued_on(
     const std::shared_ptr<const SegmentLayer>& successor, double begin_m) const {
   auto continued = tracker->continued_on(successor, begin_m);
   if (!continued) return std::nullopt;
-  Hypothesis there{
-      std::move(continued), odds,    receiver,     timestamp_s, measured, log_bayes_factor, matches,
-      contradicted,         weighed, way_before_m, apart_m};
+  const HypothesisRecord& so_far = *this;
+  Hypothesis there{so_far, std::move(continued)};
   there.way_before_m += begin_m;
   return there;
 }

@@ -23,9 +23,8 @@ inline constexpr double kAgreedM = 0.5;        // ... and independently found po
 // Whether a pose is not farther beside the line than any lane. Methods that do not know say yes.
 bool is_on_road(const TrackedPose& pose);
 
-// One hypothesis with its odds against "elsewhere".
-struct Hypothesis {
-  std::unique_ptr<SegmentTracker> tracker;
+// What has been found of a hypothesis.
+struct HypothesisRecord {
   LogOdds odds;
   GnssLikelihood receiver;
   double timestamp_s = 0;       // of the last frame
@@ -40,6 +39,11 @@ struct Hypothesis {
   // metres; 0 if there is none.
   double apart_m = 0;
   bool was_tracked = false;  // until it was lost
+};
+
+// One hypothesis: a pose that is tracked, and its odds against "elsewhere".
+struct Hypothesis : HypothesisRecord {
+  std::unique_ptr<SegmentTracker> tracker;
 
   const SegmentLayer& layer() const { return *tracker->layer(); }
   GeoPoint position() const;

@@ -278,13 +278,13 @@ NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFi
                          std::nullopt);
     if (found.failure) nearby.failure = found.failure;
     for (RelocalizationCandidate& candidate : found.candidates) {
-      Hypothesis hypothesis{std::move(candidate.tracker),
-                            LogOdds(settings.odds),
-                            GnssLikelihood(settings.receiver),
-                            frame.timestamp_s(),
-                            true,
-                            candidate.log_bayes_factor,
-                            candidate.matches};
+      Hypothesis hypothesis{{.odds = LogOdds(settings.odds),
+                             .receiver = GnssLikelihood(settings.receiver),
+                             .timestamp_s = frame.timestamp_s(),
+                             .measured = true,
+                             .log_bayes_factor = candidate.log_bayes_factor,
+                             .matches = candidate.matches},
+                            std::move(candidate.tracker)};
       if (!hypothesis.is_on_segment(hypothesis.tracker->pose())) continue;
       hypothesis.odds.add(log_bayes_factor_of_return(searching, hypothesis));
       if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)

@@ -21,7 +21,7 @@ constexpr const char* kBuildDescription =
     R"(Builds a map from recorded drives.
 
 All drives make one road network: its segments end where drives part or join, and where several
-drove, a segment takes one pass. --border divides it into two maps, and a vehicle passes from one to
+drove, a segment takes one pass, or with --passes fuse all. --border divides it into two maps, and a vehicle passes from one to
 the other as at a junction. Segments hold tracklets: SIFT features tracked over consecutive
 frames. For the default method each becomes a landmark, and the most informative are kept;
 with --lab there is a layer for each method to compare with, too. A drive in which nothing is
@@ -40,12 +40,14 @@ struct BuildOptions {
   BuildSettings settings;
 };
 
-const std::map<std::string, PassPolicy> kPassPolicies = {{"keep-best", PassPolicy::keep_best},
+const std::map<std::string, PassPolicy> kPassPolicies = {{"fuse", PassPolicy::fuse},
+                                                         {"keep-best", PassPolicy::keep_best},
                                                          {"replace", PassPolicy::replace}};
 
 // What is wrong with a word; empty for a policy.
 std::string wrong_pass_policy(const std::string& word) {
-  return kPassPolicies.contains(word) ? "" : "'" + word + "' is none; choose keep-best or replace";
+  return kPassPolicies.contains(word) ? ""
+                                      : "'" + word + "' is none; choose keep-best, replace or fuse";
 }
 
 void add_build_options(CLI::App& app, BuildOptions& options) {
@@ -64,11 +66,13 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
   const auto set_passes = [&options](const std::string& word) {
     options.settings.passes = kPassPolicies.at(word);
   };
-  app.add_option_function<std::string>("--passes", set_passes,
-                                       "Pass that a segment takes where several drove: that in "
-                                       "which most is seen (default), or the latest")
+  app.add_option_function<std::string>(
+         "--passes", set_passes,
+         "What a segment holds where several drove: the landmarks of "
+         "the pass in which most is seen (default), of the latest, or "
+         "of all, after their positions were adjusted to each other")
       ->check(wrong_pass_policy)
-      ->option_text("keep-best|replace");
+      ->option_text("keep-best|replace|fuse");
   CLI::Option* border =
       app.add_option("--border", options.border_deg,
                      "Line through two points, in WGS84 degrees, at which the network is divided:\n"
@@ -124,6 +128,13 @@ Status check_maps_are_free(const std::vector<Drive>& drives, const BuildOptions&
   return check_outputs(outputs, inputs);
 }
 
+// The share of tracklets that two drives or more saw; nothing in a map of single drives.
+std::string repeated_of(const MapReport& map) {
+  if (map.repeated == 0) return "";
+  const double share = static_cast<double>(map.repeated) / static_cast<double>(map.tracklets);
+  return ", " + fixed(100 * share, 0) + " % seen by two drives or more";
+}
+
 std::string summary_line(const MapReport& map, std::size_t frames) {
   const std::string segments =
       std::to_string(map.segments) + (map.segments == 1 ? " segment of " : " segments of ");
@@ -132,7 +143,7 @@ std::string summary_line(const MapReport& map, std::size_t frames) {
   return map.file.string() + ": build " + map.build + ", " + segments + fixed(map.length_m, 1) +
          " m, " + std::to_string(frames) + " frames, " + std::to_string(map.tracklets) +
          " tracklets (" + fixed(tracklets_a_metre, 1) + " per metre) in " +
-         std::to_string(map.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m";
+         std::to_string(map.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m" + repeated_of(map);
 }
 
 // The division that the options ask for, if any.

@@ -124,17 +124,17 @@ void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after,
         placed->enu_m - poses[track.observations.front().frame].enu_m;
     const double distance_m = from_first.norm();
     const Eigen::Vector3d ray = from_first / distance_m;
-    const double depth_sigma_m =
-        std::sqrt(ray.dot(placed->covariance_m2 * ray)) *
-        std::max(1.0, placed->rms_px / settings_.adjustment.pixel_sigma_px);
+    const double misfit = std::max(1.0, placed->rms_px / settings_.adjustment.pixel_sigma_px);
+    const Eigen::Matrix3d covariance_m2 = misfit * misfit * placed->covariance_m2;
+    const double depth_sigma_m = std::sqrt(ray.dot(covariance_m2 * ray));
     if (distance_m > settings_.max_distance_m) continue;
     if (depth_sigma_m > settings_.max_depth_sigma * distance_m) continue;
     const LogSize size =
         log_size_of(track.observations, track.scales_px, poses, placed->enu_m, camera_.focal_px());
     mapped.push_back({track.descriptor,
                       local.geo_from_enu({placed->enu_m.x(), placed->enu_m.y(), placed->enu_m.z()}),
-                      distance_m, depth_sigma_m, std::exp(size.median), size.sigma, track.along,
-                      track.observations.size()});
+                      covariance_m2, distance_m, depth_sigma_m, std::exp(size.median), size.sigma,
+                      track.along, track.observations.size()});
   }
   forget_final();
 }

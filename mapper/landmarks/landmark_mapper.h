@@ -26,12 +26,15 @@ struct LandmarkSettings {
 struct MappedLandmark {
   Descriptor descriptor{};  // mean over the observations
   GeoPoint position;
-  double depth_m = 0;  // from its first observation
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // of the position: east, north, up
+  double depth_m = 0;                                       // from its first observation
   double depth_sigma_m = 0;
   double size_m = 0;      // s * depth / f of its feature
   double size_sigma = 0;  // of ln(s * depth / f) over the observations
   AlongRange along;       // of its observations
   std::size_t observations = 0;
+  std::size_t passes = 1;        // drives that saw it ...
+  std::size_t passes_there = 1;  // ... of those that passed the segment
 };
 
 // Not safe to use from several threads. Memory is bounded by the window, not by the drive.

@@ -13,6 +13,16 @@ namespace {
 
 constexpr double kNearestM = 2;  // smaller distances do not add information
 
+// The probability that a landmark is seen again: in other frames of a drive, and by other drives.
+double probability_of_sight(const MappedLandmark& landmark, double half_repeated_at) {
+  constexpr double kPriorSeen = 0.5;
+  constexpr double kPriorPasses = 0.5;
+  const auto observations = static_cast<double>(landmark.observations);
+  const double by_drives = (static_cast<double>(landmark.passes) + kPriorSeen) /
+                           (static_cast<double>(landmark.passes_there) + kPriorPasses);
+  return by_drives * observations / (observations + half_repeated_at);
+}
+
 }  // namespace
 
 LandmarkSelector::Information LandmarkSelector::prior() const {
@@ -26,9 +36,7 @@ LandmarkSelector::Information LandmarkSelector::prior() const {
 template <class Visit>
 void LandmarkSelector::visit_observations(const MappedLandmark& landmark, const RouteLine& line,
                                           Visit visit) const {
-  const double seen_again =
-      static_cast<double>(landmark.observations) /
-      (static_cast<double>(landmark.observations) + settings_.half_repeated_at);
+  const double seen_again = probability_of_sight(landmark, settings_.half_repeated_at);
   const auto first = std::lround(landmark.along.from_m / settings_.place_m);
   const auto last = std::lround(landmark.along.to_m / settings_.place_m);
   for (long place = first; place <= last; ++place) {

@@ -9,6 +9,8 @@
 #include "mapper/codebook/codebook.h"
 #include "mapper/pipeline/build_plan.h"
 #include "mapper/pipeline/frame_pipeline.h"
+#include "mapper/pipeline/fused_tiles.h"
+#include "mapper/pipeline/landmark_survey.h"
 #include "mapper/pipeline/layer_builder.h"
 #include "mapper/pipeline/layers.h"
 
@@ -22,17 +24,20 @@ struct NamedBuilder {
   std::unique_ptr<LayerBuilder> builder;
 };
 
-// Builds the tiles of a stretch's segments from its frames.
+// Surveys the landmarks of a stretch from its frames, and builds the tiles of the layers of --lab.
 class StretchBuilder {
  public:
-  StretchBuilder(const Drive& drive, const StretchPlan& plan, const PcaProjection& projection,
-                 const BuildSettings& settings)
+  StretchBuilder(const Drive& drive, const StretchPlan& stretch, const BuildPlan& plan,
+                 const PcaProjection& projection, const BuildSettings& settings,
+                 LandmarkStore& store)
       : drive_(drive),
-        plan_(plan),
+        plan_(stretch),
         settings_(settings),
-        context_{drive.camera, plan.segments, projection, settings.tile_length_m},
-        tracker_(settings.follow, drive.camera.width_px) {
+        context_{drive.camera, stretch.segments, projection, settings.tile_length_m},
+        tracker_(settings.follow, drive.camera.width_px),
+        survey_(drive.camera, stretch, plan, settings, store) {
     for (const Layer& layer : layers_of(settings)) {
+      if (layer.items == LayerItems::landmarks) continue;
       layers_.push_back({layer.name, make_layer_builder(layer, context_)});
     }
   }
@@ -47,6 +52,7 @@ class StretchBuilder {
       const Result<ExtractedFrame> frame = frames.next();
       if (!frame) return frame.error();
       count(*frame, report.drives.back());
+      survey_.add_frame(recorded, along_m);
       for (const NamedBuilder& layer : layers_) layer.builder->add_frame(recorded, *frame, along_m);
       const std::vector<Track> ended = tracker_.add(frame->features, along_m);
       const Status written = add_and_write(ended, tracker_.oldest_open_along_m(), map, report);
@@ -70,6 +76,10 @@ class StretchBuilder {
 
   Status add_and_write(const std::vector<Track>& ended, double complete_until_m, DividedMap& map,
                        BuildReport& report) {
+    survey_.add_tracks(ended);
+    const Result<std::size_t> landmarks = survey_.store(std::isinf(complete_until_m));
+    if (!landmarks) return landmarks.error();
+    report.drives.back().tracklets += *landmarks;
     for (const NamedBuilder& layer : layers_) {
       layer.builder->add_tracks(ended);
       const Result<std::vector<BuiltTile>> tiles = layer.builder->take_complete(complete_until_m);
@@ -77,7 +87,6 @@ class StretchBuilder {
       for (const BuiltTile& tile : *tiles) {
         const Status added = map.add_tile(layer.layer, tile);
         if (!added.ok()) return added;
-        if (layer.layer == layers::kLandmarks) report.drives.back().tracklets += tile.items;
       }
     }
     return ok_status();
@@ -88,6 +97,7 @@ class StretchBuilder {
   const BuildSettings& settings_;
   StretchContext context_;
   FeatureTracker tracker_;
+  LandmarkSurvey survey_;
   std::vector<NamedBuilder> layers_;
 };
 
@@ -144,6 +154,8 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
                                             settings.tile_length_m))
                           .dump());
   }
+  Result<LandmarkStore> store = LandmarkStore::create();
+  if (!store) return store.error();
   BuildReport report;
   report.findings = plan->findings;
   BuildProgress progress;
@@ -152,13 +164,18 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     report.drives.push_back({.folder = drive.drive->folder.string()});
     for (const StretchPlan& stretch : drive.stretches) {
       if (!status.ok()) break;
-      status = StretchBuilder(*drive.drive, stretch, codebook, settings)
+      status = StretchBuilder(*drive.drive, stretch, *plan, codebook, settings, *store)
                    .run(jobs, *map, report, progress, on_progress);
     }
     const bool is_mapped = !drive.stretches.empty();
     if (status.ok() && is_mapped && report.drives.back().tracklets == 0 && !settings.allow_empty) {
       status = nothing_found(report.drives.back());
     }
+  }
+  if (status.ok()) {
+    status = build_fused_tiles(*plan, *store, codebook, settings, [&](const BuiltTile& tile) {
+      return map->add_tile(layers::kLandmarks, tile);
+    });
   }
   if (!status.ok()) return status.error();
   Result<std::vector<MapReport>> maps = map->finish();

@@ -24,7 +24,7 @@ struct DriveReport {
   std::string folder;
   std::size_t frames = 0;  // that were processed
   std::size_t features = 0;
-  std::size_t tracklets = 0;  // of the layer `tracklets`
+  std::size_t tracklets = 0;  // landmarks that were mapped
   int darkest = 255;          // of the frames' grey values, 0 to 255
   int brightest = 0;
 };

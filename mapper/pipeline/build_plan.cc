@@ -1,6 +1,7 @@
 #include "mapper/pipeline/build_plan.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "mapper/network/driven_line.h"
 #include "mapper/pipeline/pass_choice.h"
@@ -34,29 +35,73 @@ StoredSegment stored_segment(const NetworkSegment& segment, const RouteLine& lin
   return stored;
 }
 
-// The stretches of each drive, each with the segments that take its line.
+// Whether a pass's landmarks are mapped.
+bool is_mapped(const NetworkSegment& segment, std::size_t pass, PassPolicy policy) {
+  return policy == PassPolicy::fuse || pass == segment.reference;
+}
+
+// The stretches of each drive, each with the segments that take its line and the passes that are
+// mapped on it.
 std::vector<DrivePlan> stretches_of(const std::vector<const Drive*>& drives,
-                                    std::vector<NamedDrivenLines> lines,
-                                    const RoadNetwork& network) {
+                                    std::vector<NamedDrivenLines> lines, const RoadNetwork& network,
+                                    PassPolicy policy) {
   std::vector<DrivePlan> plans;
   for (std::size_t d = 0; d < drives.size(); ++d) {
     DrivePlan plan{drives[d], {}};
     for (std::size_t s = 0; s < lines[d].lines.size(); ++s) {
       DrivenLine& driven = lines[d].lines[s];
       std::vector<SegmentCut> cuts;
-      for (const NetworkSegment& segment : network.segments) {
-        const Pass& pass = segment.reference_pass();
-        if (pass.drive != d || pass.stretch != s) continue;
-        const AlongRange range = {pass.from_m, pass.to_m};
-        cuts.push_back({segment.id, range, part_of(driven.line, range)});
+      std::vector<MappedPass> passes;
+      for (std::size_t i = 0; i < network.segments.size(); ++i) {
+        const NetworkSegment& segment = network.segments[i];
+        std::size_t mapped = 0;
+        for (std::size_t p = 0; p < segment.passes.size(); ++p) {
+          if (!is_mapped(segment, p, policy)) continue;
+          const Pass& pass = segment.passes[p];
+          const std::size_t index = mapped++;
+          if (pass.drive != d || pass.stretch != s) continue;
+          const AlongRange range = {pass.from_m, pass.to_m};
+          passes.push_back({i, index, range});
+          if (p == segment.reference)
+            cuts.push_back({segment.id, range, part_of(driven.line, range)});
+        }
       }
       std::ranges::sort(cuts, {}, [](const SegmentCut& cut) { return cut.on_stretch.from_m; });
-      if (cuts.empty()) continue;
-      plan.stretches.push_back({std::move(driven.frames), std::move(driven.line), std::move(cuts)});
+      std::ranges::sort(passes, {}, [](const MappedPass& pass) { return pass.on_stretch.from_m; });
+      if (passes.empty()) continue;
+      plan.stretches.push_back(
+          {std::move(driven.frames), std::move(driven.line), std::move(cuts), std::move(passes)});
     }
     plans.push_back(std::move(plan));
   }
   return plans;
+}
+
+// The segments of the plan's drives, with their passes.
+std::vector<FusedSegment> fused_segments(const std::vector<DrivePlan>& drives,
+                                         const RoadNetwork& network) {
+  std::vector<std::optional<RouteLine>> lines(network.segments.size());
+  std::vector<std::vector<FusedSegment::PassPlace>> passes(network.segments.size());
+  std::size_t stretch_index = 0;
+  for (const DrivePlan& drive : drives) {
+    for (const StretchPlan& stretch : drive.stretches) {
+      for (const MappedPass& pass : stretch.passes) {
+        auto& places = passes[pass.segment];
+        places.resize(std::max(places.size(), pass.pass + 1));
+        places[pass.pass] = {stretch_index, pass.on_stretch};
+      }
+      for (const SegmentCut& cut : stretch.segments) {
+        const auto segment =
+            std::ranges::lower_bound(network.segments, cut.id, {}, &NetworkSegment::id);
+        lines[static_cast<std::size_t>(segment - network.segments.begin())] = cut.line;
+      }
+      ++stretch_index;
+    }
+  }
+  std::vector<FusedSegment> fused;
+  for (std::size_t i = 0; i < network.segments.size(); ++i)
+    fused.push_back({network.segments[i].id, std::move(lines[i]).value(), std::move(passes[i])});
+  return fused;
 }
 
 }  // namespace
@@ -91,18 +136,13 @@ Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettin
 
   BuildPlan plan;
   plan.findings = network.findings;
-  plan.drives = stretches_of(*sorted, std::move(lines), network);
-  for (const DrivePlan& drive : plan.drives) {
-    for (const StretchPlan& stretch : drive.stretches) {
-      for (const SegmentCut& cut : stretch.segments) {
-        const auto segment =
-            std::ranges::lower_bound(network.segments, cut.id, {}, &NetworkSegment::id);
-        plan.segments.push_back(stored_segment(*segment, cut.line, *sorted));
-        if (segment->is_beyond_border) plan.beyond_border.insert(cut.id);
-      }
-    }
+  plan.drives = stretches_of(*sorted, std::move(lines), network, settings.passes);
+  plan.fused = fused_segments(plan.drives, network);
+  for (std::size_t i = 0; i < network.segments.size(); ++i) {
+    const NetworkSegment& segment = network.segments[i];
+    plan.segments.push_back(stored_segment(segment, plan.fused[i].line, *sorted));
+    if (segment.is_beyond_border) plan.beyond_border.insert(segment.id);
   }
-  std::ranges::sort(plan.segments, {}, &StoredSegment::id);
   return plan;
 }
 

@@ -18,14 +18,27 @@ namespace milepost {
 
 struct DrivePlan {
   const Drive* drive = nullptr;
-  std::vector<StretchPlan> stretches;  // that carry a segment
+  std::vector<StretchPlan> stretches;  // that carry a segment, or landmarks of one
 
   std::size_t frames() const;  // of all stretches
+};
+
+// A segment, and the places where drives passed it whose landmarks are mapped.
+struct FusedSegment {
+  struct PassPlace {
+    std::size_t stretch = 0;  // counted over all drives, in the order of the plan
+    AlongRange on_stretch;
+  };
+
+  std::string id;
+  RouteLine line;
+  std::vector<PassPlace> passes;
 };
 
 struct BuildPlan {
   std::vector<DrivePlan> drives;         // by name
   std::vector<StoredSegment> segments;   // by id
+  std::vector<FusedSegment> fused;       // the same segments
   std::set<std::string> beyond_border;   // ids of the segments right of the border
   std::vector<NetworkFinding> findings;  // about the drives and their network
 };

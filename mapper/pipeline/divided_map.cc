@@ -72,6 +72,7 @@ Status DividedMap::add_tile(const std::string& layer, const BuiltTile& tile) {
   if (layer != layers::kLandmarks) return ok_status();
   side.report.tracklets += tile.items;
   side.report.tracklet_bytes += tile.frame.size();
+  side.report.repeated += tile.repeated;
   return ok_status();
 }
 

@@ -24,6 +24,7 @@ struct MapReport {
   std::size_t tiles = 0;
   std::size_t tracklets = 0;         // of the layer `tracklets`
   std::uint64_t tracklet_bytes = 0;  // of its tiles
+  std::size_t repeated = 0;          // its tracklets that two drives or more saw
 };
 
 // Each segment and its tiles go to the map on its side; successors on the other side name the other

@@ -1,6 +1,5 @@
 #include "mapper/pipeline/layer_builder.h"
 
-#include "mapper/pipeline/landmark_layer_builder.h"
 #include "mapper/tracklets/on_segment.h"
 #include "mapper/tracklets/tile_assembler.h"
 #include "schema/tile/codec.h"
@@ -145,13 +144,12 @@ class FrameLayerBuilder : public LayerBuilder {
 std::unique_ptr<LayerBuilder> make_layer_builder(const Layer& layer,
                                                  const StretchContext& context) {
   switch (layer.items) {
-    case LayerItems::landmarks:
-      return std::make_unique<LandmarkLayerBuilder>(context, layer.landmarks);
     case LayerItems::observations:
       return std::make_unique<ObservationLayerBuilder>(layer.regression, context);
     case LayerItems::frames:
       return std::make_unique<FrameLayerBuilder>(layer.parts, context);
     case LayerItems::tracklets:
+    case LayerItems::landmarks:
       break;
   }
   return std::make_unique<TrackletLayerBuilder>(layer.regression, context);

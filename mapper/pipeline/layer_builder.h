@@ -1,5 +1,5 @@
-// Builds the tiles of one layer from a stretch's frames and tracks, for each segment that is cut
-// from it.
+// Builds the tiles of one layer of --lab from a stretch's frames and tracks, for each segment that
+// is cut from it.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,7 @@ struct BuiltTile {
   AlongRange along;
   std::uint64_t items = 0;
   Bytes frame;
+  std::uint64_t repeated = 0;  // items that two drives or more saw
 };
 
 // Not safe to use from several threads.
@@ -52,6 +53,7 @@ struct StretchContext {
   double tile_length_m = 0;
 };
 
+// REQUIRES: not a layer of landmarks, which are fused before tiles are built.
 std::unique_ptr<LayerBuilder> make_layer_builder(const Layer& layer, const StretchContext& context);
 
 }  // namespace milepost

@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "mapper/fusion/merging.h"
+#include "mapper/fusion/slow_errors.h"
+#include "mapper/fusion/tie.h"
 #include "mapper/landmarks/landmark_mapper.h"
 #include "mapper/landmarks/selection.h"
 #include "mapper/network/border.h"
@@ -19,10 +22,18 @@ struct LandmarkLayerSettings {
   double size_target_kb_per_m = 0.48;  // upper limit of a tile's size per metre of road
 };
 
-// What becomes of a road that was driven more than once: its segment takes one pass.
+// What becomes of a road that was driven more than once: whose landmarks its segment takes.
 enum class PassPolicy {
-  keep_best,  // the one in which most is seen
+  fuse,       // those of all passes; its line is that of the one in which most is seen
+  keep_best,  // the pass in which most is seen
   replace,    // the latest
+};
+
+// How drives that passed one road become one map of it.
+struct FusionSettings {
+  TieSettings tie;
+  SlowErrorSettings errors;
+  MergeSettings merge;
 };
 
 // Divides the network: segments right of the border are written to a map of their own, and segments
@@ -42,6 +53,7 @@ struct BuildSettings {
   double tile_length_m = 20;
   double min_frame_spacing_m = 0.3;  // frames nearer to the last one used are skipped
   PassPolicy passes = PassPolicy::keep_best;
+  FusionSettings fusion;
   std::optional<Division> division;
   bool lab = false;          // also build the layers of the other methods
   bool allow_empty = false;  // a drive without any tracklet is not an error

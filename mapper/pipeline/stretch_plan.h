@@ -17,12 +17,20 @@ struct SegmentCut {
   RouteLine line;         // of the segment, from 0
 };
 
+// A pass whose landmarks are mapped.
+struct MappedPass {
+  std::size_t segment = 0;  // index of the plan's segments
+  std::size_t pass = 0;     // index of the segment's passes
+  AlongRange on_stretch;
+};
+
 // A stretch that a drive drove without a pause. Features are tracked and poses adjusted over all of
 // it; cuts only decide to which segment a landmark belongs.
 struct StretchPlan {
   std::vector<std::size_t> frame_indices;  // one per vertex of the line
   RouteLine line;
   std::vector<SegmentCut> segments;  // in driving order, disjoint
+  std::vector<MappedPass> passes;    // the same
 };
 
 // The part of a line. REQUIRES: a range of positive length within [0, length].

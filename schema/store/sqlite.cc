@@ -37,7 +37,9 @@ std::string hint_for(ErrorCode code) {
 Error error_of(sqlite3* database, int sqlite_code) {
   const char* file = sqlite3_db_filename(database, "main");
   const ErrorCode code = code_of(sqlite_code);
-  return {code, file != nullptr ? file : "", sqlite3_errmsg(database), hint_for(code)};
+  const bool is_named = file != nullptr && *file != '\0';
+  return {code, is_named ? file : "a temporary file in TMPDIR", sqlite3_errmsg(database),
+          hint_for(code)};
 }
 
 // A file: URI for a path. All characters of URI syntax are escaped.
@@ -138,6 +140,15 @@ Result<Database> Database::open(const std::filesystem::path& file, Access access
     return error;
   }
   sqlite3_busy_timeout(handle, 5000);
+  return database;
+}
+
+Result<Database> Database::open_temporary() {
+  sqlite3* handle = nullptr;
+  constexpr int kFlags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int code = sqlite3_open_v2("", &handle, kFlags, nullptr);
+  Database database(handle, {});
+  if (code != SQLITE_OK) return error_of(handle, code);
   return database;
 }
 

@@ -58,6 +58,10 @@ class Database {
   // Errors: not_found (immutable only), io, corrupt.
   static Result<Database> open(const std::filesystem::path& file, Access access);
 
+  // An empty database that is kept in memory up to a few megabytes, then in a file of the folder
+  // for temporary files (TMPDIR), and gone when it is closed. Errors: io.
+  static Result<Database> open_temporary();
+
   // Runs one or more statements that return no rows. Errors: as Statement::step.
   Status execute(const std::string& sql);
   // Errors: corrupt (the file is not a database, or lacks the table).

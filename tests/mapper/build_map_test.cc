@@ -132,6 +132,90 @@ TEST(BuildMap, TheSameBytesForAnyNumberOfJobs) {
   EXPECT_TRUE(with_one == BuiltMap(laboratory(), 4).bytes());
 }
 
+// The street's drive again under another name, with all positions moved to the north.
+Drive moved_street(double north_m) {
+  Drive moved = street();
+  moved.name = "moved";
+  for (Frame& frame : moved.frames)
+    frame.position = LocalFrame(frame.position).geo_from_enu({0, north_m, 0});
+  return moved;
+}
+
+struct FusedMap {
+  BuildReport report;
+  std::vector<LandmarkTile> tiles;
+  StoredSegment segment;
+};
+
+FusedMap fused_map(const std::vector<Drive>& drives, int jobs, PassPolicy passes) {
+  const TempFolder folder;
+  BuildSettings settings;
+  settings.passes = passes;
+  const auto built =
+      build_map(drives, folder / "fused.map", settings, jobs, [](const auto&) { return true; });
+  EXPECT_TRUE(built.ok());
+  const MapReader reader = MapReader::open(folder / "fused.map").value();
+  const std::string id = reader.segment_ids().front();
+  FusedMap map{*built, {}, reader.segment(id).value()};
+  const auto index = reader.tile_index(id, "tracklets").value();
+  for (const TileEntry& entry : index)
+    map.tiles.push_back(
+        decode_landmarks(reader.tile(id, "tracklets", entry.index).value()).value());
+  return map;
+}
+
+// Where landmarks of equal descriptors are in the second map, seen from the first: the median.
+double moved_north_m(const FusedMap& from, const FusedMap& to) {
+  std::vector<double> north_m;
+  for (const LandmarkTile& a : from.tiles) {
+    for (const LandmarkTile& b : to.tiles) {
+      if (a.index != b.index) continue;
+      const auto origin = [&](const FusedMap& map) {
+        std::vector<GeoPoint> line;
+        for (const StoredVertex& vertex : map.segment.vertices)
+          line.push_back({vertex.latitude_deg, vertex.longitude_deg, vertex.altitude_m});
+        return LocalFrame(RouteLine::from_vertices(line)->point_at(a.origin_m));
+      };
+      const LocalFrame in_a = origin(from);
+      const LocalFrame in_b = origin(to);
+      for (const Landmark& landmark : a.landmarks) {
+        const auto same =
+            std::ranges::find(b.landmarks, landmark.descriptor, &Landmark::descriptor);
+        if (same == b.landmarks.end()) continue;
+        north_m.push_back(in_a.enu_from_geo(in_b.geo_from_enu(same->position)).north_m -
+                          landmark.position.north_m);
+      }
+    }
+  }
+  EXPECT_GT(north_m.size(), 50U);
+  std::ranges::sort(north_m);
+  return north_m[north_m.size() / 2];
+}
+
+TEST(BuildMap, FusedDrivesMeetHalfWay) {
+  const std::vector<Drive> drives = {street(), moved_street(0.3)};
+  const FusedMap single = fused_map({street()}, 2, PassPolicy::keep_best);
+  const FusedMap fused = fused_map(drives, 2, PassPolicy::fuse);
+  EXPECT_NEAR(moved_north_m(single, fused), 0.15, 0.03);
+  const MapReport& report = fused.report.maps.front();
+  EXPECT_GT(report.repeated, report.tracklets / 2);
+  EXPECT_EQ(single.report.maps.front().repeated, 0U);
+  EXPECT_LE(static_cast<double>(report.tracklet_bytes),
+            1.05 * static_cast<double>(single.report.maps.front().tracklet_bytes));
+  EXPECT_EQ(fused.segment.passes.size(), 2U);
+}
+
+TEST(BuildMap, FusedTheOrderOfDrivesAndTheNumberOfJobsPlayNoPart) {
+  const FusedMap one = fused_map({street(), moved_street(0.3)}, 1, PassPolicy::fuse);
+  const FusedMap other = fused_map({moved_street(0.3), street()}, 3, PassPolicy::fuse);
+  EXPECT_EQ(one.report.maps.front().build, other.report.maps.front().build);
+}
+
+TEST(BuildMap, OfOneDriveFusingChangesNothing) {
+  EXPECT_EQ(fused_map({street()}, 2, PassPolicy::fuse).report.maps.front().build,
+            fused_map({street()}, 2, PassPolicy::keep_best).report.maps.front().build);
+}
+
 TEST(BuildMap, TheLaboratorysMapHoldsTheOtherMethodsLayersToo) {
   const BuiltMap map(laboratory());
   const MapReader reader = map.reader();

@@ -58,6 +58,22 @@ TEST_F(PlannedBuild, TheBestPassIsThatInWhichMostIsSeen) {
   EXPECT_EQ(equal.drives[1].frames(), 0U);  // it carries no segment
 }
 
+TEST_F(PlannedBuild, FusedAllPassesAreMappedAndTheLineIsOfTheBest) {
+  BuildSettings settings;
+  settings.passes = PassPolicy::fuse;
+  const BuildPlan plan = plan_build(drives(12, 255), settings, 2).value();
+  EXPECT_THAT(ids(plan), ElementsAre("b-0"));
+  ASSERT_EQ(plan.fused.size(), 1U);
+  ASSERT_EQ(plan.fused.front().passes.size(), 2U);
+  EXPECT_EQ(plan.fused.front().passes[0].stretch, 0U);
+  EXPECT_EQ(plan.fused.front().passes[1].stretch, 1U);
+  for (const DrivePlan& drive : plan.drives)
+    EXPECT_EQ(drive.frames(), static_cast<std::size_t>(kRoadFrames));
+  EXPECT_TRUE(plan.drives[0].stretches.front().segments.empty());
+  EXPECT_EQ(plan.drives[1].stretches.front().segments.size(), 1U);
+  EXPECT_EQ(plan_build(drives(12, 255), {}, 2)->fused.front().passes.size(), 1U);
+}
+
 TEST_F(PlannedBuild, OfAboutEqualPassesThatWithTheClosestFramesIsTaken) {
   std::vector<Drive> both = drives(255, 255);
   for (std::size_t i = 0; i < both[0].frames.size(); ++i)

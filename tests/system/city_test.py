@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Two drives of a small city make one map, on which a tour passes every junction without a receiver."""
+import csv
 import json
 import os
 import pathlib
+import shutil
 import statistics
 import tempfile
 import unittest
@@ -85,6 +87,37 @@ class City(CommandTest):
         self.assertEqual(parts["wrong_segment_frames"], 0)
         for figure in ("mean_error_m", "mean_lateral_error_m", "mean_distance_m"):
             self.assertLess(parts[figure], whole[figure] + 0.002, figure)
+
+    def moved(self, drive, east_m, north_m):
+        """A copy of a drive whose positions are all off by this."""
+        copy = self.folder / "moved" / drive.name
+        copy.mkdir(parents=True)
+        shutil.copy(drive / "drive.json", copy)
+        (copy / "frames").symlink_to(drive / "frames")
+        rows = rows_of(drive / "trajectory.csv")
+        for row in rows:
+            row["east_m"] = float(row["east_m"]) + east_m
+            row["north_m"] = float(row["north_m"]) + north_m
+        with open(copy / "trajectory.csv", "w", newline="") as table:
+            writer = csv.DictWriter(table, rows[0].keys(), lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+        return copy
+
+    def test_drives_that_contradict_each_other_are_fused(self):
+        moved = [self.moved(self.drives[0], 0.3, 0.3), self.moved(self.drives[1], -0.3, -0.3)]
+        errors_m = {}
+        for passes in ("fuse", "keep-best"):
+            maps = self.folder / passes
+            maps.mkdir()
+            built = self.build_of(moved, maps / "city.map", "--passes", passes)
+            self.expect_done(built)
+            self.assertEqual("seen by two drives or more" in built.stdout, passes == "fuse")
+            figures = self.evaluated(maps, passes + "-out")
+            self.assertEqual(figures["localized_frames"], figures["frames"])
+            errors_m[passes] = figures["mean_error_m"]
+        self.assertGreater(errors_m["keep-best"], 0.2)
+        self.assertLess(errors_m["fuse"], 0.1)
 
     def evaluated(self, maps, name):
         """The figures of the tour against a server of these maps, with one position at the start."""

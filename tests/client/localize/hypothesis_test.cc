@@ -44,13 +44,13 @@ class Hypotheses : public ::testing::Test {
  protected:
   Hypothesis hypothesis(double along_m, int matches, double log_bayes_factor,
                         double odds = 0) const {
-    Hypothesis hypothesis{std::make_unique<Standing>(layer_, along_m),
-                          LogOdds(LogOddsSettings()),
-                          GnssLikelihood(GnssLikelihoodSettings()),
-                          10,
-                          true,
-                          log_bayes_factor,
-                          matches};
+    Hypothesis hypothesis{{.odds = LogOdds(LogOddsSettings()),
+                           .receiver = GnssLikelihood(GnssLikelihoodSettings()),
+                           .timestamp_s = 10,
+                           .measured = true,
+                           .log_bayes_factor = log_bayes_factor,
+                           .matches = matches},
+                          std::make_unique<Standing>(layer_, along_m)};
     hypothesis.odds.add(odds);
     return hypothesis;
   }
@@ -131,8 +131,10 @@ TEST_F(Hypotheses, WhereTheMotionLeadsIsLikely) {
     camera.heading_deg = heading_deg;
     for (const std::size_t axis : {0, 1, 2}) camera.covariance.at(7 * axis) = sigma_m * sigma_m;
     camera.covariance[21] = 1;  // square degrees
-    return Hypothesis{std::make_unique<Standing>(layer, 50, FullPose{0, 0.1, camera}),
-                      LogOdds(LogOddsSettings()), GnssLikelihood(GnssLikelihoodSettings()), 10};
+    return Hypothesis{{.odds = LogOdds(LogOddsSettings()),
+                       .receiver = GnssLikelihood(GnssLikelihoodSettings()),
+                       .timestamp_s = 10},
+                      std::make_unique<Standing>(layer, 50, FullPose{0, 0.1, camera})};
   };
   const Hypothesis left = at(layer_, 0, 359.8, 2);
   const double there = log_bayes_factor_after(left, at(other, 1, 0.2, 0.1));

@@ -1,12 +1,13 @@
-#include "mapper/pipeline/landmark_layer_builder.h"
+// From tracks to the tiles of the default method: survey, store, fused tiles.
+#include "mapper/pipeline/fused_tiles.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "mapper/pipeline/landmark_survey.h"
 #include "schema/tile/codec.h"
 #include "tests/mapper/made_up_street.h"
 
@@ -17,7 +18,6 @@ using testing::kFrameSpacingM;
 using testing::kStreetCamera;
 using testing::MadeUpStreet;
 
-constexpr double kEnd = std::numeric_limits<double>::infinity();
 constexpr double kTileLengthM = 20;
 constexpr std::size_t kFrames = 96;  // 187 m: the last tile's stretch is shorter
 
@@ -43,23 +43,28 @@ MadeLayer layer_of(double size_target_kb_per_m, const std::vector<double>& cuts_
   std::vector<GeoPoint> vertices;
   for (std::size_t i = 0; i < kFrames; ++i) vertices.push_back(street.frame(i).position);
   RouteLine line = RouteLine::from_vertices(std::move(vertices)).value();
-  const PcaProjection compact = projection();
-  std::vector<SegmentCut> segments;
+  BuildPlan plan;
+  StretchPlan stretch{{}, line, {}, {}};
+  const auto add_segment = [&](const std::string& id, const AlongRange& range) {
+    const RouteLine part = part_of(line, range);
+    stretch.passes.push_back({plan.fused.size(), 0, range});
+    stretch.segments.push_back({id, range, part});
+    plan.fused.push_back({id, part, {{0, range}}});
+  };
   double from_m = 0;
   for (const double cut_m : cuts_m) {
-    segments.push_back({"to-" + std::to_string(std::lround(cut_m)),
-                        {from_m, cut_m},
-                        part_of(line, {from_m, cut_m})});
+    add_segment("to-" + std::to_string(std::lround(cut_m)), {from_m, cut_m});
     from_m = cut_m;
   }
-  segments.push_back({"s", {from_m, line.length_m()}, part_of(line, {from_m, line.length_m()})});
-  const StretchContext context{kStreetCamera, segments, compact, kTileLengthM};
-  LandmarkLayerSettings settings;
-  settings.size_target_kb_per_m = size_target_kb_per_m;
-  settings.landmarks.window_frames = 30;
-  settings.landmarks.overlap_frames = 20;
-  const auto builder =
-      make_layer_builder({"tracklets", LayerItems::landmarks, {}, {}, settings}, context);
+  add_segment("s", {from_m, line.length_m()});
+  plan.drives.push_back({nullptr, {stretch}});
+  BuildSettings settings;
+  settings.tile_length_m = kTileLengthM;
+  settings.landmarks.size_target_kb_per_m = size_target_kb_per_m;
+  settings.landmarks.landmarks.window_frames = 30;
+  settings.landmarks.landmarks.overlap_frames = 20;
+  LandmarkStore store = LandmarkStore::create().value();
+  LandmarkSurvey survey(kStreetCamera, stretch, plan, settings, store);
 
   std::map<std::size_t, std::vector<Track>> ended;
   for (std::size_t i = 0; i < street.points.size(); ++i) {
@@ -68,28 +73,23 @@ MadeLayer layer_of(double size_target_kb_per_m, const std::vector<double>& cuts_
     const auto last = static_cast<std::size_t>(std::lround(track.back().along_m / kFrameSpacingM));
     ended[last + 1].push_back(std::move(track));
   }
-  MadeLayer made{std::move(line), {}};
   for (std::size_t i = 0; i <= kFrames; ++i) {
-    double complete_until_m = kEnd;
-    if (i < kFrames) {
-      builder->add_frame(street.frame(i), {}, static_cast<double>(i) * kFrameSpacingM);
-      complete_until_m = static_cast<double>(i) * kFrameSpacingM;
-      for (const auto& [at, tracks] : ended) {  // where the oldest open track begins
-        if (at <= i) continue;
-        for (const Track& track : tracks) {
-          complete_until_m = std::min(complete_until_m, track.front().along_m);
-        }
-      }
-    }
-    builder->add_tracks(ended[i]);
-    auto tiles = builder->take_complete(complete_until_m);
-    EXPECT_TRUE(tiles.ok());
-    for (BuiltTile& tile : *tiles) made.tiles.push_back(std::move(tile));
+    if (i < kFrames) survey.add_frame(street.frame(i), static_cast<double>(i) * kFrameSpacingM);
+    survey.add_tracks(ended[i]);
+    EXPECT_TRUE(survey.store(i == kFrames).ok());
   }
+  MadeLayer made{std::move(line), {}};
+  const PcaProjection compact = projection();
+  const Status built =
+      build_fused_tiles(plan, store, compact, settings, [&](const BuiltTile& tile) {
+        made.tiles.push_back(tile);
+        return ok_status();
+      });
+  EXPECT_TRUE(built.ok());
   return made;
 }
 
-TEST(LandmarkLayerBuilder, NoTileWeighsMoreThanItsStretchMay) {
+TEST(FusedTiles, NoTileWeighsMoreThanItsStretchMay) {
   std::map<double, std::size_t> items;
   for (const double target_kb_per_m : {0.05, 0.2, 0.5}) {
     SCOPED_TRACE(target_kb_per_m);
@@ -113,7 +113,7 @@ TEST(LandmarkLayerBuilder, NoTileWeighsMoreThanItsStretchMay) {
   EXPECT_GT(items[0.5], 500U);
 }
 
-TEST(LandmarkLayerBuilder, EachTileComesOnceWithARangeThatHoldsItsLandmarks) {
+TEST(FusedTiles, EachTileComesOnceWithARangeThatHoldsItsLandmarks) {
   const MadeLayer made = layer_of(0.2);
   std::uint32_t next = 0;
   for (const BuiltTile& tile : made.tiles) {
@@ -134,12 +134,12 @@ TEST(LandmarkLayerBuilder, EachTileComesOnceWithARangeThatHoldsItsLandmarks) {
   }
 }
 
-TEST(LandmarkLayerBuilder, ATileThatHoldsNothingIsNotStored) {
+TEST(FusedTiles, ATileThatHoldsNothingIsNotStored) {
   EXPECT_THAT(layer_of(0.001).tiles, ::testing::IsEmpty());  // 20 bytes are less than any tile
 }
 
 // The stored landmarks are at the positions of the street's points.
-TEST(LandmarkLayerBuilder, LandmarksLieInTheirTilesFrame) {
+TEST(FusedTiles, LandmarksLieInTheirTilesFrame) {
   MadeUpStreet street({.frames = kFrames, .points = 900, .pixel_noise_px = 0.3});
   const RouteLine line = [&] {
     std::vector<GeoPoint> vertices;
@@ -166,7 +166,7 @@ TEST(LandmarkLayerBuilder, LandmarksLieInTheirTilesFrame) {
 }
 
 // A cut takes nothing: each segment holds what is seen from it, also where a track began before it.
-TEST(LandmarkLayerBuilder, SegmentsHoldAsMuchAtTheirCutsAsTheUncutRoad) {
+TEST(FusedTiles, SegmentsHoldAsMuchAtTheirCutsAsTheUncutRoad) {
   constexpr double kTargetKbPerM = 0.2;
   const std::vector<double> cuts_m = {60, 130};
   const MadeLayer whole = layer_of(kTargetKbPerM);
@@ -201,7 +201,7 @@ TEST(LandmarkLayerBuilder, SegmentsHoldAsMuchAtTheirCutsAsTheUncutRoad) {
   }
 }
 
-TEST(LandmarkLayerBuilder, TilesOfACutSegmentLieOnItsOwnLine) {
+TEST(FusedTiles, TilesOfACutSegmentLieOnItsOwnLine) {
   const MadeLayer made = layer_of(0.2, {60, 130});
   MadeUpStreet street({.frames = kFrames, .points = 900, .pixel_noise_px = 0.3});
   const RouteLine line = part_of(made.line, {60, 130});

@@ -1,0 +1,147 @@
+#include "mapper/pipeline/fused_tiles.h"
+
+#include <cmath>
+#include <map>
+
+#include "mapper/pipeline/landmark_tile_builder.h"
+
+namespace milepost {
+namespace {
+
+class FusedTiles {
+ public:
+  FusedTiles(const BuildPlan& plan, LandmarkStore& store, const PcaProjection& projection,
+             const BuildSettings& settings)
+      : plan_(plan), store_(store), projection_(projection), settings_(settings) {}
+
+  // The errors of all drives' positions, from the landmarks that they have in common.
+  Result<SlowErrors> slow_errors() {
+    std::vector<Tie> ties;
+    for (std::size_t segment = 0; segment < plan_.fused.size(); ++segment) {
+      const Status added = add_ties(segment, ties);
+      if (!added.ok()) return added.error();
+    }
+    std::vector<DrivenStretch> stretches;
+    for (std::size_t drive = 0; drive < plan_.drives.size(); ++drive) {
+      for (const StretchPlan& stretch : plan_.drives[drive].stretches)
+        stretches.push_back({drive, stretch.line.length_m()});
+    }
+    return estimate_slow_errors(stretches, ties, settings_.fusion.errors);
+  }
+
+  Status build(const SlowErrors& errors, const std::function<Status(const BuiltTile&)>& use) {
+    for (std::size_t segment = 0; segment < plan_.fused.size(); ++segment) {
+      const Status built = build_segment(segment, errors, use);
+      if (!built.ok()) return built;
+    }
+    return ok_status();
+  }
+
+ private:
+  using ByPass = std::vector<std::vector<PassLandmark>>;
+
+  std::uint32_t tiles_of(const FusedSegment& segment) const {
+    return static_cast<std::uint32_t>(segment.line.length_m() / settings_.tile_length_m) + 1;
+  }
+
+  // The landmarks of a segment's tile for each pass. Empty beyond the ends.
+  Result<ByPass> read(std::size_t segment, std::int64_t tile) {
+    ByPass passes(plan_.fused[segment].passes.size());
+    if (tile < 0) return passes;
+    Result<std::vector<PassLandmark>> all = store_.read(segment, static_cast<std::uint32_t>(tile));
+    if (!all) return all.error();
+    for (PassLandmark& landmark : *all) passes[landmark.pass].push_back(std::move(landmark));
+    return passes;
+  }
+
+  Status add_ties(std::size_t index, std::vector<Tie>& ties) {
+    const FusedSegment& segment = plan_.fused[index];
+    if (segment.passes.size() < 2) return ok_status();
+    std::array<ByPass, 3> window;  // the tile before, the tile, the one after
+    for (std::int64_t tile = -1; tile < tiles_of(segment); ++tile) {
+      std::rotate(window.begin(), window.begin() + 1, window.end());
+      Result<ByPass> next = read(index, tile + 1);
+      if (!next) return next.error();
+      window[2] = std::move(*next);
+      if (tile < 0) continue;
+      const LocalFrame local(
+          segment.line.point_at(static_cast<double>(tile) * settings_.tile_length_m));
+      for (std::size_t a = 0; a < segment.passes.size(); ++a) {
+        for (std::size_t b = a + 1; b < segment.passes.size(); ++b) {
+          std::vector<PassLandmark> of_b;
+          for (const ByPass& near : window) {
+            if (!near.empty()) of_b.insert(of_b.end(), near[b].begin(), near[b].end());
+          }
+          auto tie = tie_of(window[1][a], of_b, local, settings_.fusion.tie);
+          if (!tie) continue;
+          tie->a.stretch = segment.passes[a].stretch;
+          tie->b.stretch = segment.passes[b].stretch;
+          ties.push_back(*tie);
+        }
+      }
+    }
+    return ok_status();
+  }
+
+  Status build_segment(std::size_t index, const SlowErrors& errors,
+                       const std::function<Status(const BuiltTile&)>& use) {
+    const FusedSegment& segment = plan_.fused[index];
+    LandmarkTileBuilder builder(segment.id, segment.line, projection_, settings_.tile_length_m,
+                                settings_.landmarks);
+    LandmarkMerger merger(LocalFrame(segment.line.point_at(0)), segment.passes.size(),
+                          settings_.fusion.merge);
+    std::uint32_t next = 0;  // tile to build
+    const auto build_before = [&](std::uint32_t tile) -> Status {
+      for (; next < tile; ++next) {
+        const auto landmarks = merger.take_before((next + 1) * settings_.tile_length_m);
+        if (landmarks.empty()) continue;
+        const Result<BuiltTile> built = builder.build(next, landmarks);
+        if (!built) return built.error();
+        if (built->items == 0) continue;
+        const Status used = use(*built);
+        if (!used.ok()) return used;
+      }
+      return ok_status();
+    };
+    const auto reach =
+        static_cast<std::uint32_t>(std::ceil(merger.reach_m() / settings_.tile_length_m));
+    const std::uint32_t tiles = tiles_of(segment);
+    for (std::uint32_t tile = 0; tile < tiles; ++tile) {
+      Result<std::vector<PassLandmark>> landmarks = store_.read(index, tile);
+      if (!landmarks) return landmarks.error();
+      for (PassLandmark& landmark : *landmarks) {
+        correct(landmark, segment.passes[landmark.pass].stretch, errors);
+        merger.add(landmark);
+      }
+      if (tile >= reach) {
+        if (const Status built = build_before(tile - reach); !built.ok()) return built;
+      }
+    }
+    return build_before(tiles);
+  }
+
+  static void correct(PassLandmark& landmark, std::size_t stretch, const SlowErrors& errors) {
+    const Eigen::Vector3d error_m = errors.error_m(stretch, landmark.stretch_m);
+    if (error_m.isZero(0)) return;
+    landmark.landmark.position = LocalFrame(landmark.landmark.position)
+                                     .geo_from_enu({-error_m.x(), -error_m.y(), -error_m.z()});
+  }
+
+  const BuildPlan& plan_;
+  LandmarkStore& store_;
+  const PcaProjection& projection_;
+  const BuildSettings& settings_;
+};
+
+}  // namespace
+
+Status build_fused_tiles(const BuildPlan& plan, LandmarkStore& store,
+                         const PcaProjection& projection, const BuildSettings& settings,
+                         const std::function<Status(const BuiltTile&)>& use) {
+  FusedTiles tiles(plan, store, projection, settings);
+  const Result<SlowErrors> errors = tiles.slow_errors();
+  if (!errors) return errors.error();
+  return tiles.build(*errors, use);
+}
+
+}  // namespace milepost
