@@ -21,11 +21,11 @@ constexpr const char* kBuildDescription =
     R"(Builds a map from recorded drives.
 
 All drives make one road network: its segments end where drives part or join, and where several
-drove, a segment takes one pass, or with --passes fuse all. --border divides it into two maps, and a vehicle passes from one to
-the other as at a junction. Segments hold tracklets: SIFT features tracked over consecutive
-frames. For the default method each becomes a landmark, and the most informative are kept;
-with --lab there is a layer for each method to compare with, too. A drive in which nothing is
-found ends the build, and an old map stays.
+drove, a segment takes one pass, or with --passes fuse all. --border divides the network into two
+maps, and a vehicle passes from one to the other as at a junction. Segments hold tracklets: SIFT
+features tracked over consecutive frames. For the default method each becomes a landmark, and the
+most informative are kept; with --lab there is a layer for each method to compare with, too. A drive
+in which nothing is found ends the build, and an old map stays.
 Example: milepost-mapper build --drive drives/monday --map maps/town.map)";
 
 constexpr const char* kBuildSettings = "Settings (each changes the map)";
@@ -68,9 +68,8 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
   };
   app.add_option_function<std::string>(
          "--passes", set_passes,
-         "What a segment holds where several drove: the landmarks of "
-         "the pass in which most is seen (default), of the latest, or "
-         "of all, after their positions were adjusted to each other")
+         "Landmarks that a segment takes where several drove: those of the pass\n"
+         "in which most is seen (default), of the latest, or of all, fitted to each other")
       ->check(wrong_pass_policy)
       ->option_text("keep-best|replace|fuse");
   CLI::Option* border =

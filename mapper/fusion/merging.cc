@@ -55,7 +55,6 @@ void LandmarkMerger::absorb(Merged& merged, const PassLandmark& landmark,
   }
   merged.log_sizes += weight * compared.log_size;
   const double log_size = merged.log_sizes / (weight_before + weight);
-  mean.size_m = std::exp(log_size);
   const double variance = (weight_before * mean.size_sigma * mean.size_sigma +
                            weight * other.size_sigma * other.size_sigma) /
                           (weight_before + weight);
@@ -73,6 +72,7 @@ MappedLandmark LandmarkMerger::finished(Merged merged) const {
   MappedLandmark& landmark = merged.landmark;
   landmark.passes_there = passes_;
   if (landmark.passes == 1) return landmark;  // exactly as it was mapped
+  landmark.size_m = std::exp(merged.compared.log_size);
   const Eigen::Vector3d& at = merged.compared.enu_m;
   landmark.position = local_.geo_from_enu({at.x(), at.y(), at.z()});
   // In the direction in which it was least known.

@@ -39,10 +39,10 @@ double robust_weight(double squared_sigmas, double scale) {
 // The drives that ties connect, directly or over others.
 class Component {
  public:
-  Component(const std::vector<DrivenStretch>& stretches, std::vector<std::size_t> members,
+  Component(const std::vector<DrivenStretch>& stretches, const std::vector<std::size_t>& members,
             std::vector<Tie> ties, const SlowErrorSettings& settings)
-      : settings_(settings), members_(std::move(members)), ties_(std::move(ties)) {
-    for (const std::size_t stretch : members_) {
+      : settings_(settings), ties_(std::move(ties)) {
+    for (const std::size_t stretch : members) {
       const std::size_t drive = stretches[stretch].drive;
       const auto [known, is_new] = bias_node_.try_emplace(drive, next_);
       if (is_new) ++next_;
@@ -114,7 +114,7 @@ class Component {
   void visit_drift(Visit visit) const {
     for (const auto& [stretch, chain] : chains_) {
       const Eigen::Index bias = bias_node_.at(chain.drive);
-      visit(chain.drive, std::array<Term, 3>{{{chain.first, 1}, {bias, -1}, {bias, 0}}}, 1.0);
+      visit(chain.drive, std::array<Term, 2>{{{chain.first, 1}, {bias, -1}}}, 1.0);
       for (Eigen::Index k = 1; k < chain.count; ++k) {
         visit(chain.drive,
               std::array<Term, 3>{
@@ -147,7 +147,7 @@ class Component {
       const std::array<Term, 1> bias = {{{node, 1}}};
       add(bias, Eigen::Matrix3d::Identity() / variances_[drive].bias_m2, zero);
     }
-    visit_drift([&](std::size_t drive, const std::array<Term, 3>& terms, double relative) {
+    visit_drift([&](std::size_t drive, std::span<const Term> terms, double relative) {
       add(terms, Eigen::Matrix3d::Identity() / (relative * variances_[drive].drift_m2), zero);
     });
     for (std::size_t i = 0; i < ties_.size(); ++i) {
@@ -176,7 +176,6 @@ class Component {
       for (const Term& a : terms) {
         value += a.factor * x_[kAxes * a.node + axis];
         for (const Term& b : terms) {
-          if (a.factor == 0 || b.factor == 0) continue;
           sum += a.factor * b.factor * (*inverse_)(kAxes * a.node + axis, kAxes * b.node + axis);
         }
       }
@@ -200,7 +199,7 @@ class Component {
       const std::array<Term, 1> terms = {{{node, 1}}};
       bias[drive] = {expected_square(terms), kAxes};
     }
-    visit_drift([&](std::size_t drive, const std::array<Term, 3>& terms, double relative) {
+    visit_drift([&](std::size_t drive, std::span<const Term> terms, double relative) {
       drift[drive].sum += expected_square(terms) / relative;
       drift[drive].count += kAxes;
     });
@@ -225,7 +224,6 @@ class Component {
   }
 
   const SlowErrorSettings& settings_;
-  std::vector<std::size_t> members_;
   std::vector<Tie> ties_;
   std::map<std::size_t, Eigen::Index> bias_node_;  // of each drive
   std::map<std::size_t, Chain> chains_;            // of each stretch

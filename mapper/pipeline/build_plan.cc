@@ -61,9 +61,9 @@ std::vector<DrivePlan> stretches_of(const std::vector<const Drive*>& drives,
           const std::size_t index = mapped++;
           if (pass.drive != d || pass.stretch != s) continue;
           const AlongRange range = {pass.from_m, pass.to_m};
-          passes.push_back({i, index, range});
-          if (p == segment.reference)
-            cuts.push_back({segment.id, range, part_of(driven.line, range)});
+          const bool is_line = p == segment.reference;
+          passes.push_back({i, index, range, is_line});
+          if (is_line) cuts.push_back({segment.id, range, part_of(driven.line, range)});
         }
       }
       std::ranges::sort(cuts, {}, [](const SegmentCut& cut) { return cut.on_stretch.from_m; });

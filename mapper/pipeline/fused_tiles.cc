@@ -1,7 +1,8 @@
 #include "mapper/pipeline/fused_tiles.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 
 #include "mapper/pipeline/landmark_tile_builder.h"
 

@@ -22,13 +22,12 @@ double along_segment_m(double driven_m, const RouteLine& driven, const AlongRang
 }  // namespace
 
 std::optional<PassLandmark> placed_on(const MappedLandmark& landmark, const RouteLine& driven,
-                                      const MappedPass& pass, const RouteLine& segment,
-                                      bool is_line_of_segment) {
+                                      const MappedPass& pass, const RouteLine& segment) {
   auto on_pass = landmark_on(landmark, pass.on_stretch);
   if (!on_pass) return std::nullopt;
   const AlongRange& along = landmark.along;
   PassLandmark placed{std::move(*on_pass), pass.pass, (along.from_m + along.to_m) / 2};
-  if (is_line_of_segment) return placed;
+  if (pass.is_line) return placed;
   const double from_m = std::max(along.from_m, pass.on_stretch.from_m);
   const double begin_m = along_segment_m(from_m, driven, pass.on_stretch, segment);
   placed.landmark.along = {begin_m, begin_m + along.to_m - from_m};
@@ -40,13 +39,8 @@ Result<std::size_t> LandmarkSurvey::store(bool finished) {
   std::size_t stored = 0;
   for (const MappedLandmark& landmark : mapper_.take_mapped(finished)) {
     for (const MappedPass& pass : stretch_.passes) {
-      const FusedSegment& segment = plan_.fused[pass.segment];
-      const bool is_line_of_segment =
-          std::ranges::any_of(stretch_.segments, [&](const SegmentCut& cut) {
-            return cut.id == segment.id && cut.on_stretch.from_m == pass.on_stretch.from_m;
-          });
-      const auto placed =
-          placed_on(landmark, stretch_.line, pass, segment.line, is_line_of_segment);
+      const RouteLine& segment = plan_.fused[pass.segment].line;
+      const auto placed = placed_on(landmark, stretch_.line, pass, segment);
       if (!placed) continue;
       const auto tile = static_cast<std::uint32_t>(placed->landmark.along.from_m / tile_length_m_);
       const Status added = store_.add(pass.segment, tile, *placed);

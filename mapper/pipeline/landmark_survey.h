@@ -14,8 +14,7 @@ namespace milepost {
 // A landmark of a pass, in the arc length of the segment's line; nothing if it was not observed
 // from the segment.
 std::optional<PassLandmark> placed_on(const MappedLandmark& landmark, const RouteLine& driven,
-                                      const MappedPass& pass, const RouteLine& segment,
-                                      bool is_line_of_segment);
+                                      const MappedPass& pass, const RouteLine& segment);
 
 // Not safe to use from several threads.
 class LandmarkSurvey {

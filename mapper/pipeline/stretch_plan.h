@@ -22,6 +22,7 @@ struct MappedPass {
   std::size_t segment = 0;  // index of the plan's segments
   std::size_t pass = 0;     // index of the segment's passes
   AlongRange on_stretch;
+  bool is_line = false;  // whether the segment takes its line
 };
 
 // A stretch that a drive drove without a pause. Features are tracked and poses adjusted over all of

@@ -47,7 +47,7 @@ MadeLayer layer_of(double size_target_kb_per_m, const std::vector<double>& cuts_
   StretchPlan stretch{{}, line, {}, {}};
   const auto add_segment = [&](const std::string& id, const AlongRange& range) {
     const RouteLine part = part_of(line, range);
-    stretch.passes.push_back({plan.fused.size(), 0, range});
+    stretch.passes.push_back({plan.fused.size(), 0, range, true});
     stretch.segments.push_back({id, range, part});
     plan.fused.push_back({id, part, {{0, range}}});
   };
