@@ -86,8 +86,10 @@ LocalLandmark LandmarkWindow::placed(const Landmark& landmark, const LocalFrame&
   placed.descriptor = landmark.descriptor;
   placed.enu_m = vector_from(frame_.enu_from_geo(tile_frame.geo_from_enu(landmark.position)));
   const double middle_m = std::min(landmark.along.middle_m(), line.length_m());
-  const Eigen::Vector3d mapped_from = vector_from(frame_.enu_from_geo(line.point_at(middle_m)));
   const double heading_rad = line.heading_deg_at(middle_m) * kRadPerDeg;
+  const Eigen::Vector3d to_the_right(std::cos(heading_rad), -std::sin(heading_rad), 0);
+  const Eigen::Vector3d mapped_from =
+      vector_from(frame_.enu_from_geo(line.point_at(middle_m))) + landmark.right_m * to_the_right;
   const Eigen::Vector3d from_there = placed.enu_m - mapped_from;
   placed.mapping_ray = from_there.normalized();
   placed.mapped_at_m = middle_m + segment.offset_m;

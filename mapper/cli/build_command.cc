@@ -47,7 +47,7 @@ const std::map<std::string, PassPolicy> kPassPolicies = {{"fuse", PassPolicy::fu
 // What is wrong with a word; empty for a policy.
 std::string wrong_pass_policy(const std::string& word) {
   return kPassPolicies.contains(word) ? ""
-                                      : "'" + word + "' is none; choose keep-best, replace or fuse";
+                                      : "'" + word + "' is none; choose fuse, keep-best or replace";
 }
 
 void add_build_options(CLI::App& app, BuildOptions& options) {
@@ -68,10 +68,10 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
   };
   app.add_option_function<std::string>(
          "--passes", set_passes,
-         "Landmarks that a segment takes where several drove: those of the pass\n"
-         "in which most is seen (default), of the latest, or of all, fitted to each other")
+         "Landmarks that a segment takes where several drove: those of all, fitted to\n"
+         "each other (default), of the pass in which most is seen, or of the latest")
       ->check(wrong_pass_policy)
-      ->option_text("keep-best|replace|fuse");
+      ->option_text("fuse|keep-best|replace");
   CLI::Option* border =
       app.add_option("--border", options.border_deg,
                      "Line through two points, in WGS84 degrees, at which the network is divided:\n"

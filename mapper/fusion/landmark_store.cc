@@ -14,6 +14,7 @@ struct Row {
   double covariance_m2[9];
   double depth_m, depth_sigma_m, size_m, size_sigma;
   AlongRange along;
+  double right_m;
   std::uint64_t observations;
   std::uint64_t pass;
   double stretch_m;
@@ -31,6 +32,7 @@ Row row_of(const PassLandmark& from) {
   row.size_m = landmark.size_m;
   row.size_sigma = landmark.size_sigma;
   row.along = landmark.along;
+  row.right_m = landmark.right_m;
   row.observations = landmark.observations;
   row.pass = from.pass;
   row.stretch_m = from.stretch_m;
@@ -47,6 +49,7 @@ PassLandmark landmark_of(const Row& row) {
   to.landmark.size_m = row.size_m;
   to.landmark.size_sigma = row.size_sigma;
   to.landmark.along = row.along;
+  to.landmark.right_m = row.right_m;
   to.landmark.observations = row.observations;
   to.pass = row.pass;
   to.stretch_m = row.stretch_m;

@@ -60,6 +60,7 @@ void LandmarkMerger::absorb(Merged& merged, const PassLandmark& landmark,
                           (weight_before + weight);
   mean.size_sigma = std::sqrt(variance);
   mean.along = mean.along.joined(other.along);
+  mean.right_m = (weight_before * mean.right_m + weight * other.right_m) / (weight_before + weight);
   mean.observations += other.observations;
   mean.passes = static_cast<std::size_t>(std::ranges::count(merged.seen_in, true));
   merged.compared.covariance_m2 = mean.covariance_m2 = merged.information.inverse();

@@ -15,12 +15,25 @@
 namespace milepost {
 namespace {
 
-constexpr int kAxes = 3;
+constexpr int kAxes = kErrorAxes;
+
+// Axes that share their variances: those of the position, and roll.
+struct Kind {
+  int first = 0;
+  int axes = 0;
+};
+constexpr std::array<Kind, 2> kKinds = {{{0, kRollAxis}, {kRollAxis, 1}}};
+using ByKind = Eigen::Vector2d;
+
+// The diagonal of a matrix of all axes.
+ErrorVector on_axes(const ByKind& of_kind) {
+  return {of_kind[0], of_kind[0], of_kind[0], of_kind[1]};
+}
 
 // Estimated variances of one drive's errors on each axis.
 struct Variances {
-  double bias_m2 = 0;
-  double drift_m2 = 0;
+  ByKind bias = ByKind::Zero();
+  ByKind drift = ByKind::Zero();
 };
 
 // A linear function of one or more nodes, each with all axes.
@@ -53,8 +66,9 @@ class Component {
       next_ += count;
     }
     for (const auto& [drive, node] : bias_node_) {
-      variances_[drive] = {settings.bias_sigma_m * settings.bias_sigma_m,
-                           settings.drift_sigma_m * settings.drift_sigma_m};
+      variances_[drive] = {
+          ByKind(settings.bias_sigma_m, settings.bias_roll_sigma_rad).cwiseAbs2(),
+          ByKind(settings.drift_sigma_m, settings.drift_roll_sigma_rad).cwiseAbs2()};
     }
   }
 
@@ -78,8 +92,8 @@ class Component {
         SlowErrors::Node& node = nodes[stretch].emplace_back();
         for (int axis = 0; axis < kAxes; ++axis) {
           const Eigen::Index i = kAxes * (chain.first + k) + axis;
-          node.error_m[axis] = x_[i];
-          node.variance_m2[axis] = (*inverse_)(i, i);
+          node.error[axis] = x_[i];
+          node.variance[axis] = (*inverse_)(i, i);
         }
       }
     }
@@ -127,9 +141,9 @@ class Component {
   void solve_once(const std::vector<double>& weights) {
     std::vector<Eigen::Triplet<double>> elements;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(kAxes * next_);
-    const auto add = [&](std::span<const Term> terms, const Eigen::Matrix3d& information,
-                         const Eigen::Vector3d& value) {
-      const Eigen::Vector3d weighted = information * value;
+    const auto add = [&](std::span<const Term> terms, const ErrorMatrix& information,
+                         const ErrorVector& value) {
+      const ErrorVector weighted = information * value;
       for (const Term& a : terms) {
         right.segment<kAxes>(kAxes * a.node) += a.factor * weighted;
         for (const Term& b : terms) {
@@ -142,17 +156,20 @@ class Component {
         }
       }
     };
-    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+    const ErrorVector zero = ErrorVector::Zero();
+    const auto information_of = [](const ByKind& variances) -> ErrorMatrix {
+      return on_axes(variances.cwiseInverse()).asDiagonal();
+    };
     for (const auto& [drive, node] : bias_node_) {
       const std::array<Term, 1> bias = {{{node, 1}}};
-      add(bias, Eigen::Matrix3d::Identity() / variances_[drive].bias_m2, zero);
+      add(bias, information_of(variances_[drive].bias), zero);
     }
     visit_drift([&](std::size_t drive, std::span<const Term> terms, double relative) {
-      add(terms, Eigen::Matrix3d::Identity() / (relative * variances_[drive].drift_m2), zero);
+      add(terms, information_of(relative * variances_[drive].drift), zero);
     });
     for (std::size_t i = 0; i < ties_.size(); ++i) {
-      const Eigen::Matrix3d information = ties_[i].covariance_m2.inverse();
-      add(terms_of(ties_[i]), weights[i] * information, ties_[i].enu_m);
+      const ErrorMatrix information = ties_[i].covariance.inverse();
+      add(terms_of(ties_[i]), weights[i] * information, ties_[i].difference);
     }
     Eigen::SparseMatrix<double> normal(kAxes * next_, kAxes * next_);
     normal.setFromTriplets(elements.begin(), elements.end());
@@ -162,16 +179,23 @@ class Component {
   }
 
   double weight_of(const Tie& tie, double scale) const {
-    Eigen::Vector3d off = -tie.enu_m;
+    ErrorVector off = -tie.difference;
     for (const Term& term : terms_of(tie))
       off += term.factor * x_.segment<kAxes>(kAxes * term.node);
-    return robust_weight(off.dot(tie.covariance_m2.ldlt().solve(off)), scale);
+    return robust_weight(off.dot(tie.covariance.ldlt().solve(off)), scale);
   }
 
-  // The expected square of a linear function, summed over the axes.
-  double expected_square(std::span<const Term> terms) const {
+  // The expected square of a linear function, summed over the axes of each kind.
+  ByKind expected_squares(std::span<const Term> terms) const {
+    ByKind sums;
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
+      sums[static_cast<Eigen::Index>(kind)] = expected_square(terms, kKinds[kind]);
+    return sums;
+  }
+
+  double expected_square(std::span<const Term> terms, const Kind& kind) const {
     double sum = 0;
-    for (int axis = 0; axis < kAxes; ++axis) {
+    for (int axis = kind.first; axis < kind.first + kind.axes; ++axis) {
       double value = 0;
       for (const Term& a : terms) {
         value += a.factor * x_[kAxes * a.node + axis];
@@ -189,38 +213,50 @@ class Component {
   void update_variances() {
     constexpr double kBiasPrior = 3;  // values that what is common to all counts as
     constexpr double kDriftPrior = 15;
-    struct Squares {
-      double sum = 0;
-      double count = 0;
-    };
+    const ByKind axes(kKinds[0].axes, kKinds[1].axes);
     std::map<std::size_t, Squares> bias;
     std::map<std::size_t, Squares> drift;
     for (const auto& [drive, node] : bias_node_) {
       const std::array<Term, 1> terms = {{{node, 1}}};
-      bias[drive] = {expected_square(terms), kAxes};
+      bias[drive] = {expected_squares(terms), axes};
     }
     visit_drift([&](std::size_t drive, std::span<const Term> terms, double relative) {
-      drift[drive].sum += expected_square(terms) / relative;
-      drift[drive].count += kAxes;
+      drift[drive].sums += expected_squares(terms) / relative;
+      drift[drive].counts += axes;
     });
-    const auto common = [&](const std::map<std::size_t, Squares>& squares) {
+    const ByKind common_bias = common(bias);
+    const ByKind common_drift = common(drift);
+    for (auto& [drive, variances] : variances_) {
+      variances.bias = drawn_to(common_bias, kBiasPrior, bias[drive]);
+      variances.drift = drawn_to(common_drift, kDriftPrior, drift[drive]);
+    }
+  }
+
+  // Sums of squares, and of how many values.
+  struct Squares {
+    ByKind sums = ByKind::Zero();
+    ByKind counts = ByKind::Zero();
+  };
+
+  // The medians of the drives' mean squares.
+  ByKind common(const std::map<std::size_t, Squares>& squares) const {
+    ByKind medians = ByKind(settings_.min_sigma_m, settings_.min_roll_sigma_rad).cwiseAbs2();
+    for (Eigen::Index kind = 0; kind < medians.size(); ++kind) {
       std::vector<double> means;
       means.reserve(squares.size());
-      for (const auto& [drive, of_drive] : squares) means.push_back(of_drive.sum / of_drive.count);
+      for (const auto& [drive, of_drive] : squares)
+        means.push_back(of_drive.sums[kind] / of_drive.counts[kind]);
       std::ranges::sort(means);
       const std::size_t middle = means.size() / 2;
       const double median =
           means.size() % 2 == 1 ? means[middle] : (means[middle - 1] + means[middle]) / 2;
-      return std::max(median, settings_.min_sigma_m * settings_.min_sigma_m);
-    };
-    const double common_bias = common(bias);
-    const double common_drift = common(drift);
-    for (auto& [drive, variances] : variances_) {
-      variances.bias_m2 =
-          (kBiasPrior * common_bias + bias[drive].sum) / (kBiasPrior + bias[drive].count);
-      variances.drift_m2 =
-          (kDriftPrior * common_drift + drift[drive].sum) / (kDriftPrior + drift[drive].count);
+      medians[kind] = std::max(median, medians[kind]);
     }
+    return medians;
+  }
+
+  static ByKind drawn_to(const ByKind& common, double prior, const Squares& own) {
+    return ((prior * common + own.sums).array() / (prior + own.counts.array())).matrix();
   }
 
   const SlowErrorSettings& settings_;
@@ -276,16 +312,16 @@ SlowErrors::Node SlowErrors::at(std::size_t stretch, double along_m) const {
   const double part = where - static_cast<double>(before);
   const Node& a = nodes[before];
   const Node& b = nodes[before + 1];
-  return {(1 - part) * a.error_m + part * b.error_m,
-          (1 - part) * a.variance_m2 + part * b.variance_m2};
+  return {(1 - part) * a.error + part * b.error, (1 - part) * a.variance + part * b.variance};
 }
 
-Eigen::Vector3d SlowErrors::error_m(std::size_t stretch, double along_m) const {
-  return at(stretch, along_m).error_m;
+PoseError SlowErrors::error(std::size_t stretch, double along_m) const {
+  const ErrorVector error = at(stretch, along_m).error;
+  return {error.head<3>(), error[kRollAxis]};
 }
 
 double SlowErrors::sigma_m(std::size_t stretch, double along_m) const {
-  return std::sqrt(at(stretch, along_m).variance_m2.head<2>().mean());
+  return std::sqrt(at(stretch, along_m).variance.head<2>().mean());
 }
 
 }  // namespace milepost

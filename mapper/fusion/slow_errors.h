@@ -1,4 +1,4 @@
-// The slow position errors of drives: a bias of each drive and a drift along its way, as far as the
+// The slow errors of drives' poses: a bias of each drive and a drift along its way, as far as the
 // drives differ where they share a road. A sparse least-squares problem with an
 // Ornstein-Uhlenbeck prior, solved with robust weights; the variances of the prior are estimated,
 // too (variance components, by expectation maximization), so that a drive which differs from all
@@ -7,8 +7,6 @@
 
 #include <cstddef>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "mapper/fusion/tie.h"
 
@@ -20,6 +18,9 @@ struct SlowErrorSettings {
   double bias_sigma_m = 0.1;    // on each axis; where the estimate of the variances begins, ...
   double drift_sigma_m = 0.15;  // ... and what holds for drives that meet no other
   double min_sigma_m = 0.003;   // below which no standard deviation is estimated
+  double bias_roll_sigma_rad = 0.02;  // the same of roll
+  double drift_roll_sigma_rad = 0.02;
+  double min_roll_sigma_rad = 0.0003;
 };
 
 // A stretch that was driven without a pause.
@@ -28,20 +29,19 @@ struct DrivenStretch {
   double length_m = 0;
 };
 
-// Estimates for each stretch. Errors are the recorded positions minus the true ones, in metres
-// east, north and up.
+// Estimates for each stretch.
 class SlowErrors {
  public:
   struct Node {
-    Eigen::Vector3d error_m = Eigen::Vector3d::Zero();
-    Eigen::Vector3d variance_m2 = Eigen::Vector3d::Zero();  // of what is left after a correction
+    ErrorVector error = ErrorVector::Zero();
+    ErrorVector variance = ErrorVector::Zero();  // of what is left after a correction
   };
 
   SlowErrors(std::vector<std::vector<Node>> nodes, double spacing_m)
       : nodes_(std::move(nodes)), spacing_m_(spacing_m) {}
 
   // REQUIRES: `stretch` is one of those given; `along_m` is clamped to its length.
-  Eigen::Vector3d error_m(std::size_t stretch, double along_m) const;
+  PoseError error(std::size_t stretch, double along_m) const;
   // The standard deviation in plan, the mean of both axes, of positions after the correction.
   double sigma_m(std::size_t stretch, double along_m) const;
 

@@ -12,7 +12,8 @@ namespace milepost {
 namespace {
 
 struct Difference {
-  Eigen::Vector3d enu_m;  // b minus a
+  Eigen::Vector3d enu_m;       // b minus a
+  Eigen::Vector3d landmark_m;  // where a has it
   Eigen::Matrix3d covariance_m2;
   double squared_distance = 0;  // of the descriptors
   std::size_t a = 0, b = 0;
@@ -76,7 +77,8 @@ std::vector<Difference> differences(const std::vector<ComparedLandmark>& a,
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (!b_of_a[i] || a_of_b[*b_of_a[i]] != i) continue;
     const ComparedLandmark& other = b[*b_of_a[i]];
-    found.push_back({other.enu_m - a[i].enu_m, a[i].covariance_m2 + other.covariance_m2 + least,
+    found.push_back({other.enu_m - a[i].enu_m, a[i].enu_m,
+                     a[i].covariance_m2 + other.covariance_m2 + least,
                      squared_distance(a[i].descriptor, other.descriptor), i, *b_of_a[i]});
   }
   return found;
@@ -85,6 +87,21 @@ std::vector<Difference> differences(const std::vector<ComparedLandmark>& a,
 bool agrees(const Difference& difference, const Eigen::Vector3d& offset_m, double cutoff_sigmas) {
   const Eigen::Vector3d off = difference.enu_m - offset_m;
   return off.dot(difference.covariance_m2.ldlt().solve(off)) < cutoff_sigmas * cutoff_sigmas;
+}
+
+// What two drives differ by: a shift, and a turn about the road's direction, up and to the right.
+constexpr int kUnknowns = 6;
+using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
+using UnknownsMatrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+
+// The Jacobian of a landmark's displacement.
+Eigen::Matrix<double, 3, kUnknowns> displacement_by_unknowns(const RoadPlace& place,
+                                                             const Eigen::Vector3d& landmark_m) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix<double, 3, kUnknowns> jacobian;
+  jacobian << Eigen::Matrix3d::Identity(), place.forward.cross(landmark_m), up.cross(landmark_m),
+      place.forward.cross(up).cross(landmark_m);
+  return jacobian;
 }
 
 // The difference that most others agree with; of the most similar ones.
@@ -112,25 +129,32 @@ Eigen::Vector3d most_agreed(const std::vector<Difference>& differences, double c
 }  // namespace
 
 std::optional<Tie> tie_of(const std::vector<PassLandmark>& a, const std::vector<PassLandmark>& b,
-                          const LocalFrame& local, const TieSettings& settings) {
+                          const RoadPlace& place, const TieSettings& settings) {
   std::vector<double> a_m;
   std::vector<double> b_m;
-  const auto matched = differences(exact_ones(a, local, settings, a_m),
-                                   exact_ones(b, local, settings, b_m), settings);
+  const auto matched = differences(exact_ones(a, place.local, settings, a_m),
+                                   exact_ones(b, place.local, settings, b_m), settings);
   if (matched.size() < settings.min_inliers) return std::nullopt;
+  const Eigen::Vector3d turn_sigmas(settings.roll_sigma_rad, settings.turn_sigma_rad,
+                                    settings.turn_sigma_rad);
+  UnknownsMatrix prior = UnknownsMatrix::Zero();
+  prior.diagonal().tail<3>() = turn_sigmas.cwiseAbs2().cwiseInverse();
   Tie tie;
-  tie.enu_m = most_agreed(matched, settings.cutoff_sigmas);
+  Unknowns unknowns = Unknowns::Zero();
+  unknowns.head<3>() = most_agreed(matched, settings.cutoff_sigmas);
+  UnknownsMatrix covariance;
   constexpr int kIterations = 5;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+    UnknownsMatrix information = prior;
+    Unknowns weighted = Unknowns::Zero();
     std::size_t inliers = 0;
     tie.a.along_m = tie.b.along_m = 0;
     for (const Difference& each : matched) {
-      if (!agrees(each, tie.enu_m, settings.cutoff_sigmas)) continue;
+      const auto jacobian = displacement_by_unknowns(place, each.landmark_m);
+      if (!agrees(each, jacobian * unknowns, settings.cutoff_sigmas)) continue;
       const Eigen::Matrix3d weight = each.covariance_m2.inverse();
-      information += weight;
-      weighted += weight * each.enu_m;
+      information += jacobian.transpose() * weight * jacobian;
+      weighted += jacobian.transpose() * weight * each.enu_m;
       tie.a.along_m += a_m[each.a];
       tie.b.along_m += b_m[each.b];
       ++inliers;
@@ -138,12 +162,14 @@ std::optional<Tie> tie_of(const std::vector<PassLandmark>& a, const std::vector<
     const auto least_ratio = settings.min_inlier_ratio * static_cast<double>(matched.size());
     if (inliers < settings.min_inliers || static_cast<double>(inliers) < least_ratio)
       return std::nullopt;
-    tie.covariance_m2 = information.inverse();
-    tie.enu_m = tie.covariance_m2 * weighted;
+    covariance = information.inverse();
+    unknowns = covariance * weighted;
     tie.a.along_m /= static_cast<double>(inliers);
     tie.b.along_m /= static_cast<double>(inliers);
   }
-  tie.covariance_m2 += settings.tie_sigma_m * settings.tie_sigma_m * Eigen::Matrix3d::Identity();
+  tie.difference = unknowns.head<kErrorAxes>();
+  tie.covariance = covariance.topLeftCorner<kErrorAxes, kErrorAxes>();
+  tie.covariance.diagonal().head<3>().array() += settings.tie_sigma_m * settings.tie_sigma_m;
   return tie;
 }
 

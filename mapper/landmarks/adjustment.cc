@@ -105,6 +105,16 @@ std::vector<TriangulatedTrack> tracks_that_fit(const std::vector<FeatureTrack>& 
   return taken;
 }
 
+// How far recorded positions are from the adjusted ones, on each axis.
+double position_spread_m(const std::vector<CameraPose>& poses,
+                         const std::vector<PoseBlock>& recorded, std::size_t final_frames) {
+  double squares = 0;
+  for (std::size_t i = final_frames; i < poses.size(); ++i)
+    squares +=
+        (poses[i].enu_m - Eigen::Map<const Eigen::Vector3d>(recorded[i].data())).squaredNorm();
+  return std::sqrt(squares / (3.0 * static_cast<double>(poses.size() - final_frames)));
+}
+
 void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorded,
            std::size_t final_frames, std::vector<TriangulatedTrack>& tracks, const Pinhole& camera,
            const AdjustmentSettings& settings) {
@@ -154,7 +164,8 @@ void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorde
 
 void adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
                   const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
-                  const AdjustmentSettings& settings) {
+                  const AdjustmentSettings& given) {
+  AdjustmentSettings settings = given;
   std::vector<PoseBlock> recorded;
   recorded.reserve(poses.size());
   for (const CameraPose& pose : poses) recorded.push_back(block_from(pose));
@@ -166,6 +177,9 @@ void adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
     for (const CameraPose& pose : poses) blocks.push_back(block_from(pose));
     solve(blocks, recorded, final_frames, fitting, camera, settings);
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_from(blocks[i].data());
+    if (final_frames == poses.size()) continue;
+    settings.position_sigma_m = std::clamp(position_spread_m(poses, recorded, final_frames),
+                                           given.least_position_sigma_m, given.position_sigma_m);
   }
 }
 

@@ -41,7 +41,9 @@ LogSize log_size_of(const FeatureTrack& track, const std::vector<double>& scales
 }  // namespace
 
 LandmarkMapper::LandmarkMapper(const Camera& camera, const LandmarkSettings& settings)
-    : camera_(camera.pinhole), settings_(settings) {}
+    : camera_(camera.pinhole),
+      settings_(settings),
+      vehicles_ahead_(settings.vehicles_ahead, camera.pinhole) {}
 
 void LandmarkMapper::add_frame(const Frame& frame, double along_m) {
   frames_.push_back({along_m, frame.position, frame.heading_deg * kRadPerDeg, 0, 0});
@@ -70,25 +72,31 @@ void LandmarkMapper::add_tracks(const std::vector<Track>& tracks) {
 }
 
 std::vector<MappedLandmark> LandmarkMapper::take_mapped(bool finished) {
-  std::vector<MappedLandmark> mapped;
   const std::size_t full = final_ + settings_.window_frames + settings_.overlap_frames;
-  if (frames_.size() >= full) finalize(full, full - settings_.overlap_frames, mapped);
-  if (finished && final_ < frames_.size()) finalize(frames_.size(), frames_.size(), mapped);
-  return mapped;
+  if (frames_.size() >= full) finalize(full, full - settings_.overlap_frames);
+  if (finished && final_ < frames_.size()) finalize(frames_.size(), frames_.size());
+  if (finished) return take_placed_before(std::numeric_limits<double>::infinity());
+  if (final_ == 0) return {};
+  return take_placed_before(frames_[final_ - 1].along_m - vehicles_ahead_.reach_m());
 }
 
-double LandmarkMapper::oldest_waiting_along_m() const {
-  double oldest_m = std::numeric_limits<double>::infinity();
-  for (const PendingTrack& track : tracks_) {
-    if (!track.mapped) oldest_m = std::min(oldest_m, track.along.from_m);
+std::vector<MappedLandmark> LandmarkMapper::take_placed_before(double along_m) {
+  std::vector<MappedLandmark> taken;
+  while (!placed_.empty() && placed_.front().landmark.along.to_m < along_m) {
+    Placed& next = placed_.front();
+    if (!vehicles_ahead_.hold(next.seen, next.landmark.depth_m))
+      taken.push_back(std::move(next.landmark));
+    placed_.pop_front();
   }
-  return oldest_m;
+  double oldest_m = along_m;
+  for (const Placed& waiting : placed_) oldest_m = std::min(oldest_m, waiting.seen.along_m);
+  vehicles_ahead_.forget_before(oldest_m);
+  return taken;
 }
 
 // Adjusts the first `frames` kept frames, makes the first `final_after` of them final, and maps the
 // tracks that end in them.
-void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after,
-                              std::vector<MappedLandmark>& mapped) {
+void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after) {
   const LocalFrame local(frames_.front().position);
   std::vector<CameraPose> poses;
   poses.reserve(frames);
@@ -117,6 +125,11 @@ void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after,
   for (PendingTrack& track : tracks_) {
     if (track.mapped || track.observations.back().frame >= final_) continue;
     track.mapped = true;
+    const FeatureTrack& seen = track.observations;
+    const VehiclesAhead::Place place{track.along.middle_m(),
+                                     (seen.front().pixel + seen.back().pixel) / 2};
+    vehicles_ahead_.add(place, track.along.to_m - track.along.from_m, seen.size(),
+                        recession_px(seen, poses, camera_));
     const auto placed =
         triangulate(track.observations, poses, camera_, settings_.adjustment.pixel_sigma_px);
     if (!placed || placed->rms_px > settings_.max_rms_px) continue;
@@ -131,10 +144,11 @@ void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after,
     if (depth_sigma_m > settings_.max_depth_sigma * distance_m) continue;
     const LogSize size =
         log_size_of(track.observations, track.scales_px, poses, placed->enu_m, camera_.focal_px());
-    mapped.push_back({track.descriptor,
-                      local.geo_from_enu({placed->enu_m.x(), placed->enu_m.y(), placed->enu_m.z()}),
-                      covariance_m2, distance_m, depth_sigma_m, std::exp(size.median), size.sigma,
-                      track.along, track.observations.size()});
+    const GeoPoint position =
+        local.geo_from_enu({placed->enu_m.x(), placed->enu_m.y(), placed->enu_m.z()});
+    placed_.push_back({{track.descriptor, position, covariance_m2, distance_m, depth_sigma_m,
+                        std::exp(size.median), size.sigma, track.along, seen.size()},
+                       place});
   }
   forget_final();
 }

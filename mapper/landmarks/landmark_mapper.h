@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <vector>
 
 #include "mapper/landmarks/adjustment.h"
 #include "mapper/landmarks/triangulation.h"
+#include "mapper/landmarks/vehicles_ahead.h"
 #include "schema/drive/drive.h"
 #include "schema/geo/geodesy.h"
 #include "schema/geo/pinhole.h"
@@ -20,6 +22,7 @@ struct LandmarkSettings {
   double max_rms_px = 2;            // of a landmark's reprojection error, to reject moving objects
   double max_depth_sigma = 0.2;     // of a landmark's depth, relative to it
   double max_distance_m = 300;      // farther landmarks do not constrain the position
+  VehiclesAheadSettings vehicles_ahead;
 };
 
 // A landmark before selection and quantization.
@@ -35,6 +38,8 @@ struct MappedLandmark {
   std::size_t observations = 0;
   std::size_t passes = 1;        // drives that saw it ...
   std::size_t passes_there = 1;  // ... of those that passed the segment
+  double right_m =
+      0;  // where it was mapped, in the middle of its range: right of the segment's line
 };
 
 // Not safe to use from several threads. Memory is bounded by the window, not by the drive.
@@ -48,10 +53,8 @@ class LandmarkMapper {
   // kept are ignored.
   void add_tracks(const std::vector<Track>& tracks);
 
-  // The landmarks whose poses have become final since the last call. `finished` finalizes all.
+  // The landmarks, by end of their range, of which all is known by now. `finished` finalizes all.
   std::vector<MappedLandmark> take_mapped(bool finished);
-  // A lower bound of the begin of landmarks that are taken later. Infinity if no track waits.
-  double oldest_waiting_along_m() const;
 
  private:
   struct RecordedPose {
@@ -69,7 +72,13 @@ class LandmarkMapper {
     bool mapped = false;
   };
 
-  void finalize(std::size_t frames, std::size_t final_after, std::vector<MappedLandmark>& mapped);
+  struct Placed {
+    MappedLandmark landmark;
+    VehiclesAhead::Place seen;
+  };
+
+  void finalize(std::size_t frames, std::size_t final_after);
+  std::vector<MappedLandmark> take_placed_before(double along_m);
   void forget_final();
 
   Pinhole camera_;
@@ -77,6 +86,8 @@ class LandmarkMapper {
   std::vector<RecordedPose> frames_;  // kept frames
   std::size_t final_ = 0;             // number of frames_ with final poses
   std::vector<PendingTrack> tracks_;  // in the order of their ends
+  VehiclesAhead vehicles_ahead_;
+  std::deque<Placed> placed_;  // until it is known what is seen of vehicles after them
 };
 
 }  // namespace milepost

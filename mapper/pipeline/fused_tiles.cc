@@ -65,15 +65,15 @@ class FusedTiles {
       if (!next) return next.error();
       window[2] = std::move(*next);
       if (tile < 0) continue;
-      const LocalFrame local(
-          segment.line.point_at(static_cast<double>(tile) * settings_.tile_length_m));
+      const RoadPlace place =
+          road_place(segment.line, (static_cast<double>(tile) + 0.5) * settings_.tile_length_m);
       for (std::size_t a = 0; a < segment.passes.size(); ++a) {
         for (std::size_t b = a + 1; b < segment.passes.size(); ++b) {
           std::vector<PassLandmark> of_b;
           for (const ByPass& near : window) {
             if (!near.empty()) of_b.insert(of_b.end(), near[b].begin(), near[b].end());
           }
-          auto tie = tie_of(window[1][a], of_b, local, settings_.fusion.tie);
+          auto tie = tie_of(window[1][a], of_b, place, settings_.fusion.tie);
           if (!tie) continue;
           tie->a.stretch = segment.passes[a].stretch;
           tie->b.stretch = segment.passes[b].stretch;
@@ -111,7 +111,7 @@ class FusedTiles {
       Result<std::vector<PassLandmark>> landmarks = store_.read(index, tile);
       if (!landmarks) return landmarks.error();
       for (PassLandmark& landmark : *landmarks) {
-        correct(landmark, segment.passes[landmark.pass].stretch, errors);
+        correct(landmark, segment, errors);
         merger.add(landmark);
       }
       if (tile >= reach) {
@@ -121,11 +121,15 @@ class FusedTiles {
     return build_before(tiles);
   }
 
-  static void correct(PassLandmark& landmark, std::size_t stretch, const SlowErrors& errors) {
-    const Eigen::Vector3d error_m = errors.error_m(stretch, landmark.stretch_m);
-    if (error_m.isZero(0)) return;
-    landmark.landmark.position = LocalFrame(landmark.landmark.position)
-                                     .geo_from_enu({-error_m.x(), -error_m.y(), -error_m.z()});
+  static void correct(PassLandmark& from, const FusedSegment& segment, const SlowErrors& errors) {
+    const PoseError error = errors.error(segment.passes[from.pass].stretch, from.stretch_m);
+    if (error.is_zero()) return;
+    MappedLandmark& landmark = from.landmark;
+    const RoadPlace place = road_place(segment.line, landmark.along.middle_m());
+    const EnuPoint recorded = place.local.enu_from_geo(landmark.position);
+    const Eigen::Vector3d at_m(recorded.east_m, recorded.north_m, recorded.up_m);
+    const Eigen::Vector3d corrected = at_m - error.displacement_m(place, at_m);
+    landmark.position = place.local.geo_from_enu({corrected.x(), corrected.y(), corrected.z()});
   }
 
   const BuildPlan& plan_;

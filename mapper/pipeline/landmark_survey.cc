@@ -8,15 +8,14 @@ namespace milepost {
 namespace {
 
 // Where a place of the driven line is beside the segment's line.
-double along_segment_m(double driven_m, const RouteLine& driven, const AlongRange& pass,
-                       const RouteLine& segment) {
+LineProjection on_segment(double driven_m, const RouteLine& driven, const AlongRange& pass,
+                          const RouteLine& segment) {
   constexpr double kReachM = 30;
   const double part = (driven_m - pass.from_m) / (pass.to_m - pass.from_m);
   const double about_m = std::clamp(part, 0.0, 1.0) * segment.length_m();
-  return segment
-      .project(driven.point_at(driven_m),
-               {std::max(0.0, about_m - kReachM), std::min(segment.length_m(), about_m + kReachM)})
-      .along_m;
+  return segment.project(
+      driven.point_at(driven_m),
+      {std::max(0.0, about_m - kReachM), std::min(segment.length_m(), about_m + kReachM)});
 }
 
 }  // namespace
@@ -29,8 +28,10 @@ std::optional<PassLandmark> placed_on(const MappedLandmark& landmark, const Rout
   PassLandmark placed{std::move(*on_pass), pass.pass, (along.from_m + along.to_m) / 2};
   if (pass.is_line) return placed;
   const double from_m = std::max(along.from_m, pass.on_stretch.from_m);
-  const double begin_m = along_segment_m(from_m, driven, pass.on_stretch, segment);
+  const double begin_m = on_segment(from_m, driven, pass.on_stretch, segment).along_m;
   placed.landmark.along = {begin_m, begin_m + along.to_m - from_m};
+  const double middle_m = std::min((from_m + along.to_m) / 2, pass.on_stretch.to_m);
+  placed.landmark.right_m = on_segment(middle_m, driven, pass.on_stretch, segment).lateral_m;
   if (begin_m >= segment.length_m()) return std::nullopt;
   return placed;
 }

@@ -75,6 +75,7 @@ LandmarkTile LandmarkTileBuilder::packed(std::uint32_t index,
     landmark.size_m = static_cast<float>(mapped.size_m);
     landmark.size_sigma = static_cast<float>(std::min(mapped.size_sigma, 1.0));
     landmark.along = mapped.along;
+    landmark.right_m = static_cast<float>(mapped.right_m);
     landmark.observations =
         static_cast<std::uint8_t>(std::min<std::size_t>(mapped.observations, 255));
     landmark.passes = static_cast<std::uint8_t>(std::min<std::size_t>(mapped.passes, 255));

@@ -52,7 +52,7 @@ struct BuildSettings {
   double quantization_step = 0.02;        // of a codebook that is trained
   double tile_length_m = 20;
   double min_frame_spacing_m = 0.3;  // frames nearer to the last one used are skipped
-  PassPolicy passes = PassPolicy::keep_best;
+  PassPolicy passes = PassPolicy::fuse;
   FusionSettings fusion;
   std::optional<Division> division;
   bool lab = false;          // also build the layers of the other methods

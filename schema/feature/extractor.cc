@@ -13,6 +13,10 @@ constexpr double kBrightPart = 0.99;      // quantile of the grey values: a fram
 constexpr double kBright = 150;           // brightness of frames in ordinary light
 constexpr double kLeastBrightness = 0.2;  // of kBright; darker frames are mostly noise
 
+// SIFT of OpenCV finds its keypoints on an enlarged image, whose pixels' centres lie a quarter of a
+// pixel beside those that it scales them back to.
+constexpr float kEnlargedShiftPx = 0.25F;
+
 // Brightness of a frame relative to kBright: [kLeastBrightness, 1].
 double brightness_of(const cv::Mat& gray) {
   constexpr int kBins = 256;
@@ -60,7 +64,8 @@ FeatureSet FeatureExtractor::extract(const cv::Mat& gray) {
   set.descriptors.resize(impl_->keypoints.size());
   for (std::size_t i = 0; i < impl_->keypoints.size(); ++i) {
     const cv::KeyPoint& keypoint = impl_->keypoints[i];
-    set.features.push_back({keypoint.pt.x, keypoint.pt.y, keypoint.size});
+    set.features.push_back(
+        {keypoint.pt.x - kEnlargedShiftPx, keypoint.pt.y - kEnlargedShiftPx, keypoint.size});
     std::memcpy(set.descriptors[i].data(), impl_->descriptors.ptr(static_cast<int>(i)),
                 kDescriptorBytes);
   }

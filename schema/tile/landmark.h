@@ -25,6 +25,9 @@ struct Landmark {
   AlongRange along;         // capture positions of the first and last observation; steps of 0.1 m
   std::uint8_t observations = 0;  // >= 3; saturates at 255
   std::uint8_t passes = 1;        // drives that saw it, >= 1; saturates at 255
+  // Where it was mapped, in the middle of its range: to the right of the segment's line, within
+  // 12.7 m, steps of 0.1 m. Not 0 where the line is another drive's.
+  float right_m = 0;
 };
 
 // The landmarks whose first observation lies in [index, index + 1) * tile length of one segment.

@@ -43,6 +43,8 @@ LandmarkSteps steps_of(const Landmark& landmark, double origin_m) {
       nearest<std::uint16_t>((landmark.along.to_m - origin_m) * kDecimetresAMetre - steps.begin_dm);
   steps.observations = landmark.observations;
   steps.passes = landmark.passes;
+  steps.right_dm =
+      std::max(nearest<std::int8_t>(double{landmark.right_m} * kDecimetresAMetre), kLeastRightDm);
   return steps;
 }
 
@@ -58,6 +60,7 @@ Landmark landmark_of(const LandmarkSteps& steps, double origin_m) {
                     origin_m + (steps.begin_dm + steps.length_dm) / kDecimetresAMetre};
   landmark.observations = steps.observations;
   landmark.passes = steps.passes;
+  landmark.right_m = static_cast<float>(steps.right_dm / kDecimetresAMetre);
   return landmark;
 }
 

@@ -1,4 +1,4 @@
-// A landmark quantized as stored in tiles (FORMAT.md 5.4 to 5.8).
+// A landmark quantized as stored in tiles (FORMAT.md 5.4 to 5.11).
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,11 @@ struct LandmarkSteps {
   std::uint16_t length_dm = 0;
   std::uint8_t observations = 0;
   std::uint8_t passes = 1;
+  std::int8_t right_dm = 0;  // at least -127
 };
 
 inline constexpr std::uint8_t kSizeSigmaUnits = 250;
+inline constexpr std::int8_t kLeastRightDm = -127;
 
 // Rounds to the nearest steps; values out of range saturate. `origin_m` is the tile's.
 LandmarkSteps steps_of(const Landmark& landmark, double origin_m);

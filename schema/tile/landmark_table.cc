@@ -79,10 +79,15 @@ flatbuffers::Offset<fbs::LandmarkTile> build_table(flatbuffers::FlatBufferBuilde
   const bool is_fused = std::ranges::any_of(landmarks, [](auto& l) { return l.passes != 1; });
   const auto passes = is_fused ? bytes([](auto& landmark) { return landmark.passes; })
                                : flatbuffers::Offset<flatbuffers::Vector<std::uint8_t>>();
+  // Left out where each was mapped from the line.
+  const bool is_beside = std::ranges::any_of(landmarks, [](auto& l) { return l.right_dm != 0; });
+  const auto right = is_beside ? builder.CreateVector(column<std::int8_t>(
+                                     landmarks, [](auto& landmark) { return landmark.right_dm; }))
+                               : flatbuffers::Offset<flatbuffers::Vector<std::int8_t>>();
   const auto segment = builder.CreateString(tile.segment);
   return fbs::CreateLandmarkTile(builder, segment, tile.index, tile.origin_m, kCompactValues,
                                  descriptors, position_low, position_high, depth_sigma, size,
-                                 size_sigma, begin, length, observations, passes);
+                                 size_sigma, begin, length, observations, passes, right);
 }
 
 // Checks that every array has exactly one value per landmark.
@@ -101,6 +106,9 @@ Status check_arrays(const fbs::LandmarkTile& table, const std::string& where) {
   if (!lengths.ok()) return lengths;
   if (table.passes() != nullptr && table.passes()->size() != count) {
     return broken_tile(where, "passes are not as many as observations", "5.10");
+  }
+  if (table.right_dm() != nullptr && table.right_dm()->size() != count) {
+    return broken_tile(where, "right_dm are not as many as observations", "5.11");
   }
   if (table.descriptor_values() != kCompactValues) {
     return broken_tile(where, "a descriptor does not have 32 values", "5.4");
@@ -137,6 +145,7 @@ LandmarkSteps steps_at(const fbs::LandmarkTile& table, flatbuffers::uoffset_t i,
   steps.length_dm = table.length_dm()->Get(i);
   steps.observations = table.observations()->Get(i);
   if (table.passes() != nullptr) steps.passes = table.passes()->Get(i);
+  if (table.right_dm() != nullptr) steps.right_dm = table.right_dm()->Get(i);
   return steps;
 }
 
@@ -146,6 +155,7 @@ Status check_landmark(const LandmarkSteps& steps, const std::string& where) {
   }
   if (steps.observations < 3) return broken_tile(where, "fewer than 3 observations", "5.8");
   if (steps.passes == 0) return broken_tile(where, "no pass", "5.10");
+  if (steps.right_dm < kLeastRightDm) return broken_tile(where, "right_dm is -128", "5.11");
   return ok_status();
 }
 

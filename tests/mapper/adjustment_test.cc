@@ -71,6 +71,24 @@ TEST(AdjustPoses, FindsWhatTheRecordDoesNotSay) {
   EXPECT_LT(after.position_m, before.position_m);
 }
 
+// Positions that agree with the images from frame to frame are held closer than others.
+TEST(AdjustPoses, TrustsPositionsAsFarAsTheImagesDo) {
+  const auto error_m = [](double noise_m, const AdjustmentSettings& settings) {
+    MadeUpStreet street({.frames = 60,
+                         .points = 450,
+                         .heading_noise_deg = 0.3,
+                         .position_noise_m = noise_m,
+                         .pixel_noise_px = 0.5});
+    std::vector<CameraPose> poses = street.recorded;
+    adjust_poses(poses, 0, street.sights_of_all(), kStreetPinhole, settings);
+    return errors_of(poses, street.poses).position_m;
+  };
+  AdjustmentSettings fixed;
+  fixed.least_position_sigma_m = fixed.position_sigma_m;
+  EXPECT_LT(error_m(0, {}), 0.6 * error_m(0, fixed));
+  EXPECT_LT(error_m(0.03, {}), 1.05 * error_m(0.03, fixed));
+}
+
 TEST(AdjustPoses, FinalPosesDoNotMove) {
   MadeUpStreet street(kNoisyPoses);
   std::vector<CameraPose> poses = street.recorded;

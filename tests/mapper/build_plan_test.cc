@@ -49,9 +49,11 @@ TEST_F(PlannedBuild, ARoadDrivenTwiceIsOneSegmentWithBothPasses) {
 }
 
 TEST_F(PlannedBuild, TheBestPassIsThatInWhichMostIsSeen) {
-  EXPECT_THAT(ids(plan_build(drives(255, 12), {}, 2).value()), ElementsAre("a-0"));
-  EXPECT_THAT(ids(plan_build(drives(12, 255), {}, 2).value()), ElementsAre("b-0"));
-  const BuildPlan equal = plan_build(drives(255, 255), {}, 2).value();
+  BuildSettings settings;
+  settings.passes = PassPolicy::keep_best;
+  EXPECT_THAT(ids(plan_build(drives(255, 12), settings, 2).value()), ElementsAre("a-0"));
+  EXPECT_THAT(ids(plan_build(drives(12, 255), settings, 2).value()), ElementsAre("b-0"));
+  const BuildPlan equal = plan_build(drives(255, 255), settings, 2).value();
   EXPECT_THAT(ids(equal), ElementsAre("a-0"));
   ASSERT_EQ(equal.drives.size(), 2U);
   EXPECT_EQ(equal.drives[0].frames(), static_cast<std::size_t>(kRoadFrames));
@@ -60,7 +62,7 @@ TEST_F(PlannedBuild, TheBestPassIsThatInWhichMostIsSeen) {
 
 TEST_F(PlannedBuild, FusedAllPassesAreMappedAndTheLineIsOfTheBest) {
   BuildSettings settings;
-  settings.passes = PassPolicy::fuse;
+  EXPECT_EQ(settings.passes, PassPolicy::fuse);  // the default
   const BuildPlan plan = plan_build(drives(12, 255), settings, 2).value();
   EXPECT_THAT(ids(plan), ElementsAre("b-0"));
   ASSERT_EQ(plan.fused.size(), 1U);
@@ -71,7 +73,8 @@ TEST_F(PlannedBuild, FusedAllPassesAreMappedAndTheLineIsOfTheBest) {
     EXPECT_EQ(drive.frames(), static_cast<std::size_t>(kRoadFrames));
   EXPECT_TRUE(plan.drives[0].stretches.front().segments.empty());
   EXPECT_EQ(plan.drives[1].stretches.front().segments.size(), 1U);
-  EXPECT_EQ(plan_build(drives(12, 255), {}, 2)->fused.front().passes.size(), 1U);
+  settings.passes = PassPolicy::keep_best;
+  EXPECT_EQ(plan_build(drives(12, 255), settings, 2)->fused.front().passes.size(), 1U);
 }
 
 TEST_F(PlannedBuild, OfAboutEqualPassesThatWithTheClosestFramesIsTaken) {

@@ -230,5 +230,29 @@ TEST(FusedTiles, TilesOfACutSegmentLieOnItsOwnLine) {
   EXPECT_GT(static_cast<double>(near), 0.8 * static_cast<double>(all));
 }
 
+// A pass 3.5 m to the right of the segment's line, which begins 10 m before it.
+TEST(LandmarkSurvey, ALandmarkOfAnotherLaneIsPlacedBesideTheLine) {
+  const auto line_at = [](double east_m, double from_m, double to_m) {
+    return RouteLine::from_vertices(
+               {MadeUpStreet::geo_of({east_m, from_m, 0}), MadeUpStreet::geo_of({east_m, to_m, 0})})
+        .value();
+  };
+  const RouteLine driven = line_at(3.5, -10, 110);
+  const RouteLine segment = line_at(0, 0, 100);
+  MappedLandmark landmark;
+  landmark.along = {40, 60};
+  const auto beside = placed_on(landmark, driven, {0, 1, {10, 110}, false}, segment);
+  ASSERT_TRUE(beside);
+  EXPECT_NEAR(beside->landmark.along.from_m, 30, 0.01);
+  EXPECT_NEAR(beside->landmark.along.to_m, 50, 0.01);
+  EXPECT_NEAR(beside->landmark.right_m, 3.5, 0.01);
+  EXPECT_EQ(beside->pass, 1U);
+  EXPECT_EQ(beside->stretch_m, 50);
+  // The segment that has the pass's own line.
+  const auto on_line = placed_on(landmark, driven, {0, 1, {10, 110}, true}, segment);
+  ASSERT_TRUE(on_line);
+  EXPECT_EQ(on_line->landmark.right_m, 0);
+}
+
 }  // namespace
 }  // namespace milepost

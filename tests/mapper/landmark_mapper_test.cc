@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 
 #include "tests/mapper/made_up_street.h"
@@ -45,9 +44,7 @@ class Drive {
       Track track = street.track_of(i);
       if (track.empty()) continue;
       if (change) change(i, track);
-      const auto last =
-          static_cast<std::size_t>(std::lround(track.back().along_m / kFrameSpacingM));
-      ended_[last + 1].push_back(std::move(track));
+      expect(std::move(track));
     }
   }
 
@@ -60,7 +57,11 @@ class Drive {
     mapper_.add_tracks(ended_[street_.poses.size()]);
     take(true);
   }
-  const LandmarkMapper& mapper() const { return mapper_; }
+  // Adds a track that is not one of the street's. REQUIRES: no frame was added yet.
+  void expect(Track track) {
+    const auto last = static_cast<std::size_t>(std::lround(track.back().along_m / kFrameSpacingM));
+    ended_[last + 1].push_back(std::move(track));
+  }
   const std::vector<MappedLandmark>& mapped() const { return mapped_; }
 
  private:
@@ -75,8 +76,10 @@ class Drive {
   std::vector<MappedLandmark> mapped_;
 };
 
-std::vector<MappedLandmark> mapped(MadeUpStreet& street, const LandmarkSettings& settings) {
+std::vector<MappedLandmark> mapped(MadeUpStreet& street, const LandmarkSettings& settings,
+                                   const std::vector<Track>& others = {}) {
   Drive drive(street, settings);
+  for (const Track& track : others) drive.expect(track);
   for (std::size_t i = 0; i < street.poses.size(); ++i) drive.add_frame(i);
   drive.finish();
   return drive.mapped();
@@ -222,7 +225,7 @@ TEST(LandmarkMapper, LeavesOutWhatIsTooFarOrTooUncertain) {
   }
 }
 
-// Waiting tracks are within the latest frames: a window, its overlaps and the longest track.
+// A landmark waits for a window, its overlaps, the longest track and what a vehicle ahead may show.
 TEST(LandmarkMapper, NothingWaitsForLong) {
   StreetPlan plan;
   plan.frames = 300;
@@ -230,22 +233,70 @@ TEST(LandmarkMapper, NothingWaitsForLong) {
   plan.turn_deg = 0;
   MadeUpStreet street(plan);
   Drive drive(street, in_windows(20, 5));
-  double promised_m = 0;
-  const double longest_m = (20 + 2 * 5) * kFrameSpacingM + plan.farthest_m;
+  const double longest_m =
+      (20 + 2 * 5) * kFrameSpacingM + plan.farthest_m + VehiclesAheadSettings().reach_m;
+  std::size_t taken = 0;
   for (std::size_t i = 0; i < street.poses.size(); ++i) {
-    const std::size_t before = drive.mapped().size();
-    const double along_m = static_cast<double>(i) * kFrameSpacingM;
-    promised_m = drive.mapper().oldest_waiting_along_m();
     drive.add_frame(i);
-    EXPECT_GE(drive.mapper().oldest_waiting_along_m(), along_m - longest_m);
-    for (std::size_t k = before; k < drive.mapped().size(); ++k) {
-      EXPECT_GE(drive.mapped()[k].along.from_m,
-                std::min(promised_m, along_m - plan.farthest_m - 2));
+    for (; taken < drive.mapped().size(); ++taken) {
+      EXPECT_GE(drive.mapped()[taken].along.from_m,
+                static_cast<double>(i) * kFrameSpacingM - longest_m);
     }
   }
+  EXPECT_GT(taken, 250U);
   drive.finish();
-  EXPECT_EQ(drive.mapper().oldest_waiting_along_m(), std::numeric_limits<double>::infinity());
   EXPECT_GT(drive.mapped().size(), 500U);
+}
+
+// A street with a truck ahead. While the truck falls back, features on it fit as if they stood far
+// ahead; it fell away before.
+TEST(LandmarkMapper, WhatIsOnAVehicleAheadIsNoLandmark) {
+  StreetPlan plan;
+  plan.frames = 90;
+  plan.points = 300;
+  plan.turn_deg = 0;
+  plan.pixel_noise_px = 0.3;
+  MadeUpStreet street(plan);
+  constexpr std::size_t kOnTruck = 40;
+  constexpr std::size_t kFirstOnTruck = 5000;
+  constexpr double kFallsBackFromM = 90;
+  const auto gap_m = [](double along_m) {  // 1 m in 6, away and back
+    return 8 + std::min(along_m, 2 * kFallsBackFromM - along_m) / 6;
+  };
+  std::vector<Track> on_truck;
+  for (std::size_t k = 0; k < kOnTruck; ++k) {
+    const double right_m = -1 + 0.05 * static_cast<double>(k);
+    const double up_m = -0.8 + 0.3 * static_cast<double>(k % 9);
+    for (std::size_t first = k % 8; first + 8 < plan.frames; first += 8) {
+      Track& track = on_truck.emplace_back();
+      for (std::size_t i = first; i < first + 8; ++i) {
+        const double along_m = static_cast<double>(i) * kFrameSpacingM;
+        const Eigen::Vector2d pixel =
+            kStreetCamera.pinhole.project<double>({right_m, -up_m, gap_m(along_m)});
+        Observation seen;
+        seen.feature = {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()),
+                        static_cast<float>(60 / gap_m(along_m))};
+        seen.descriptor = descriptor_of(kFirstOnTruck + k);
+        seen.along_m = along_m;
+        track.push_back(seen);
+      }
+    }
+  }
+  const auto far_ones_of_truck = [&](const LandmarkSettings& settings) {
+    std::size_t found = 0;
+    for (const MappedLandmark& landmark : mapped(street, settings, on_truck)) {
+      for (std::size_t k = 0; k < kOnTruck; ++k) {
+        const bool is_far = landmark.depth_m > settings.vehicles_ahead.min_distance_m;
+        found += is_far && landmark.descriptor == descriptor_of(kFirstOnTruck + k) ? 1 : 0;
+      }
+    }
+    return found;
+  };
+  LandmarkSettings blind;
+  blind.vehicles_ahead.min_receding = 1000000;
+  const std::size_t without = far_ones_of_truck(blind);
+  EXPECT_GT(without, 60U);
+  EXPECT_LT(far_ones_of_truck({}), without / 4);
 }
 
 TEST(LandmarkMapper, HeadingsMayCrossNorth) {

@@ -82,6 +82,17 @@ TEST_F(LandmarksOnAHill, RaysLeadFromWhereItWasMapped) {
   EXPECT_NEAR(ray.z(), 0, 1e-3);
 }
 
+TEST_F(LandmarksOnAHill, RaysOfAnotherLaneLeadFromThere) {
+  DecodedTile beside = tile(3, 60, {42 + 16, 56 - 12, 3.5});
+  std::get<LandmarkTile>(beside).landmarks[0].right_m = 10;  // halfway
+  auto window = this->window({{{60, 80}, beside}});
+  ASSERT_TRUE(cover(window, {60, 70}).complete);
+  const LocalLandmark& landmark = window.landmarks().at(0);
+  const Eigen::Vector3d from = landmark.enu_m - 10 * landmark.mapping_ray;
+  expect_near(from, {42 + 8, 56 - 6, 3.5});
+  EXPECT_NEAR(landmark.mapped_ahead_m, 0, 0.01);
+}
+
 TEST_F(LandmarksOnAHill, ANewOriginMovesThem) {
   const EnuPoint corner = {100, 130, 12};
   auto window = this->window({{{40, 60}, tile(2, 40, corner)}});

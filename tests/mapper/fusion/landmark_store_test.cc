@@ -14,6 +14,8 @@ TEST(LandmarkStore, GivesBackWhatWasAddedByBegin) {
   auto store = LandmarkStore::create();
   ASSERT_TRUE(store.ok());
   auto landmarks = road.mapped(3, {0, 0, 0});
+  for (std::size_t i = 0; i < landmarks.size(); ++i)
+    landmarks[i].landmark.right_m = landmarks[i].landmark.along.from_m / 4;
   for (const PassLandmark& landmark : landmarks) ASSERT_TRUE(store->add(7, 2, landmark).ok());
   const auto read = store->read(7, 2);
   ASSERT_TRUE(read.ok());
@@ -28,6 +30,7 @@ TEST(LandmarkStore, GivesBackWhatWasAddedByBegin) {
     EXPECT_EQ(is.landmark.descriptor, landmarks[i].landmark.descriptor);
     EXPECT_EQ(is.landmark.covariance_m2, landmarks[i].landmark.covariance_m2);
     EXPECT_EQ(is.landmark.along.to_m, landmarks[i].landmark.along.to_m);
+    EXPECT_EQ(is.landmark.right_m, landmarks[i].landmark.right_m);
     EXPECT_EQ(is.landmark.size_m, landmarks[i].landmark.size_m);
     EXPECT_EQ(is.landmark.observations, 5U);
   }

@@ -12,6 +12,7 @@ namespace {
 constexpr double kRoadM = 600;
 constexpr double kPlaceM = 20;
 constexpr double kTieSigmaM = 0.015;
+constexpr double kTieRollSigmaRad = 0.0005;
 
 struct Noise {
   double bias_m = 0.1;
@@ -33,6 +34,7 @@ class NoisyDrives {
         drift = decay * drift + normal3(noise.drift_m * std::sqrt(1 - decay * decay));
       }
       stretches.push_back({drive, kRoadM});
+      rolls_rad.push_back(0);
     }
   }
 
@@ -43,10 +45,11 @@ class NoisyDrives {
         for (std::size_t place = 0; place < errors_[a].size(); ++place) {
           const double along_m = static_cast<double>(place) * kPlaceM;
           if (along_m < from_m || along_m > to_m) continue;
-          ties.push_back({{a, along_m},
-                          {b, along_m},
-                          errors_[b][place] - errors_[a][place] + normal3(kTieSigmaM),
-                          Eigen::Matrix3d::Identity() * kTieSigmaM * kTieSigmaM});
+          Tie& tie = ties.emplace_back(Tie{{a, along_m}, {b, along_m}});
+          tie.difference << errors_[b][place] - errors_[a][place] + normal3(kTieSigmaM),
+              rolls_rad[b] - rolls_rad[a];
+          tie.covariance.diagonal() << Eigen::Vector3d::Constant(kTieSigmaM * kTieSigmaM),
+              kTieRollSigmaRad * kTieRollSigmaRad;
         }
       }
     }
@@ -98,11 +101,12 @@ class NoisyDrives {
 
   std::vector<DrivenStretch> stretches;
   std::vector<Tie> ties;
+  std::vector<double> rolls_rad;  // of each drive
 
  private:
   Eigen::Vector2d left(const SlowErrors& estimate, std::size_t drive, std::size_t place) const {
     const double along_m = static_cast<double>(place) * kPlaceM;
-    return (errors_[drive][place] - estimate.error_m(drive, along_m)).head<2>();
+    return (errors_[drive][place] - estimate.error(drive, along_m).enu_m).head<2>();
   }
   Eigen::Vector3d normal3(double sigma_m) {
     std::normal_distribution<double> normal(0, sigma_m);
@@ -153,9 +157,9 @@ TEST(SlowErrors, ADriveThatMeetsNoOtherKeepsItsPositions) {
   drives.tie_all();
   std::erase_if(drives.ties, [](const Tie& tie) { return tie.b.stretch == 2; });
   const SlowErrors estimate = drives.estimated();
-  EXPECT_EQ(estimate.error_m(2, 300), Eigen::Vector3d::Zero());
+  EXPECT_TRUE(estimate.error(2, 300).is_zero());
   EXPECT_NEAR(estimate.sigma_m(2, 300), std::hypot(0.1, 0.15), 1e-6);
-  EXPECT_NE(estimate.error_m(1, 300), Eigen::Vector3d::Zero());
+  EXPECT_FALSE(estimate.error(1, 300).is_zero());
 }
 
 TEST(SlowErrors, ADriveElsewhereChangesNoDigit) {
@@ -167,7 +171,7 @@ TEST(SlowErrors, ADriveElsewhereChangesNoDigit) {
   std::erase_if(apart, [](const Tie& tie) { return tie.b.stretch >= 2; });
   const SlowErrors without = estimate_slow_errors({{0, kRoadM}, {1, kRoadM}}, apart, {});
   for (double along_m = 0; along_m < kRoadM; along_m += 7)
-    EXPECT_EQ(with.error_m(1, along_m), without.error_m(1, along_m)) << along_m;
+    EXPECT_EQ(with.error(1, along_m).enu_m, without.error(1, along_m).enu_m) << along_m;
 }
 
 TEST(SlowErrors, WrongTiesPullNothing) {
@@ -175,7 +179,7 @@ TEST(SlowErrors, WrongTiesPullNothing) {
   drives.tie_all();
   const double before_m = drives.rms_left_m(drives.estimated(), 4);
   for (std::size_t i = 3; i < drives.ties.size(); i += 10)
-    drives.ties[i].enu_m += Eigen::Vector3d(1.5, -1, 0);
+    drives.ties[i].difference.head<3>() += Eigen::Vector3d(1.5, -1, 0);
   EXPECT_LT(drives.rms_left_m(drives.estimated(), 4), before_m + 0.005);
 }
 
@@ -192,7 +196,19 @@ TEST(SlowErrors, KnownOnAPartOfTheRoadTheErrorsFadeOutBeyond) {
   drives.tie_all(0, 200);
   const SlowErrors estimate = drives.estimated();
   EXPECT_LT(estimate.sigma_m(1, 100), 0.9 * estimate.sigma_m(1, kRoadM));
-  EXPECT_LT(estimate.error_m(1, kRoadM).norm(), 0.2);
+  EXPECT_LT(estimate.error(1, kRoadM).enu_m.norm(), 0.2);
+}
+
+TEST(SlowErrors, RollsAreToldApartAndMoveNoPosition) {
+  NoisyDrives level(3, {}, 5);
+  level.tie_all();
+  NoisyDrives rolled(3, {}, 5);
+  rolled.rolls_rad = {0.02, -0.01, 0.01};
+  rolled.tie_all();
+  const SlowErrors estimate = rolled.estimated();
+  const double between = estimate.error(0, 300).roll_rad - estimate.error(1, 300).roll_rad;
+  EXPECT_NEAR(between, 0.03, 0.001);
+  EXPECT_NEAR(rolled.rms_left_m(estimate, 3), level.rms_left_m(level.estimated(), 3), 0.005);
 }
 
 }  // namespace

@@ -33,6 +33,33 @@ std::size_t features_of(const cv::Mat& gray) {
   return FeatureExtractor(FeatureParameters{.max_features = 0}).extract(gray).size();
 }
 
+// Blobs are found where they are, to a fraction of a pixel, large and small.
+TEST(FeatureExtractor, PlacesHaveNoBias) {
+  for (const double sigma_px : {1.2, 2.0, 5.0, 12.0}) {
+    SCOPED_TRACE(sigma_px);
+    cv::Point2d off;
+    int found = 0;
+    for (int i = 0; i < 12; ++i) {
+      const cv::Point2d centre(100 + 0.08 * i, 110 - 0.05 * i);
+      cv::Mat gray(220, 220, CV_8U);
+      gray.forEach<std::uint8_t>([&](std::uint8_t& value, const int* at) {
+        const double squared = std::pow(at[1] - centre.x, 2) + std::pow(at[0] - centre.y, 2);
+        value = cv::saturate_cast<std::uint8_t>(
+            60 + 150 * std::exp(-squared / (2 * sigma_px * sigma_px)));
+      });
+      for (const Feature& feature : FeatureExtractor({}).extract(gray).features) {
+        const cv::Point2d by(feature.x_px - centre.x, feature.y_px - centre.y);
+        if (cv::norm(by) > 3) continue;
+        off += by;
+        ++found;
+      }
+    }
+    ASSERT_GT(found, 10);
+    EXPECT_NEAR(off.x / found, 0, 0.05);
+    EXPECT_NEAR(off.y / found, 0, 0.05);
+  }
+}
+
 TEST(FeatureExtractor, FindsInLittleLightAboutWhatItFindsInMuch) {
   const cv::Mat gray = blobs();
   const auto in_daylight = static_cast<double>(features_of(gray));

@@ -37,6 +37,7 @@ struct Table {
   std::vector<std::uint16_t> length_dm = {400, 0};
   std::vector<std::uint8_t> observations = {3, 255};
   std::optional<std::vector<std::uint8_t>> passes = {};
+  std::optional<std::vector<std::int8_t>> right_dm = {};
 };
 
 Bytes bytes_of(const Table& t, const char* identifier = "MPL1") {
@@ -44,7 +45,8 @@ Bytes bytes_of(const Table& t, const char* identifier = "MPL1") {
   const auto root = fbs::CreateLandmarkTileDirect(
       builder, t.segment.c_str(), 12, t.origin_m, t.descriptor_values, &t.descriptors,
       &t.position_low, &t.position_high, &t.depth_sigma, &t.size, &t.size_sigma, &t.begin_dm,
-      &t.length_dm, &t.observations, t.passes ? &*t.passes : nullptr);
+      &t.length_dm, &t.observations, t.passes ? &*t.passes : nullptr,
+      t.right_dm ? &*t.right_dm : nullptr);
   return testing::content_of(builder, root, identifier);
 }
 
@@ -97,6 +99,21 @@ TEST(LandmarkTable, WithoutPassesEachWasSeenByOneDrive) {
   // A map of single drives has the bytes that it had before there were passes.
   fused->landmarks[1].passes = 1;
   EXPECT_EQ(encode_landmarks(*fused), encode_landmarks(*single));
+}
+
+TEST(LandmarkTable, WithoutRightEachWasMappedFromTheLine) {
+  Table table;
+  const auto on_line = decode_landmarks(compress_frame(bytes_of(table)));
+  ASSERT_TRUE(on_line.ok()) << on_line.error().line();
+  EXPECT_EQ(on_line->landmarks[1].right_m, 0);
+  table.right_dm = {-127, 35};
+  auto beside = decode_landmarks(compress_frame(bytes_of(table)));
+  ASSERT_TRUE(beside.ok()) << beside.error().line();
+  EXPECT_FLOAT_EQ(beside->landmarks[0].right_m, -12.7F);
+  EXPECT_FLOAT_EQ(beside->landmarks[1].right_m, 3.5F);
+  EXPECT_FLOAT_EQ(decode_landmarks(encode_landmarks(*beside))->landmarks[1].right_m, 3.5F);
+  for (Landmark& landmark : beside->landmarks) landmark.right_m = 0.04F;  // less than half a step
+  EXPECT_EQ(encode_landmarks(*beside), encode_landmarks(*on_line));
 }
 
 // Distributed like real ones: descriptors with decreasing variance, landmarks on both sides of a
@@ -191,6 +208,7 @@ TEST(LandmarkTable, EveryStepIsKept) {
     steps.east_cm = steps.north_cm = steps.up_cm = static_cast<std::int16_t>(value);
     steps.depth_sigma = steps.size = static_cast<std::uint8_t>(value);
     steps.size_sigma = static_cast<std::uint8_t>((value & 0xff) % 251);
+    steps.right_dm = static_cast<std::int8_t>(std::max(-127, value % 128));
     steps.begin_dm = static_cast<std::uint16_t>(value);
     steps.length_dm = static_cast<std::uint16_t>(65535 - value);
     const LandmarkSteps again = steps_of(landmark_of(steps, 98765.4321), 98765.4321);
@@ -200,6 +218,7 @@ TEST(LandmarkTable, EveryStepIsKept) {
     ASSERT_EQ(again.depth_sigma, steps.depth_sigma);
     ASSERT_EQ(again.size, steps.size);
     ASSERT_EQ(again.size_sigma, steps.size_sigma);
+    ASSERT_EQ(again.right_dm, steps.right_dm);
     ASSERT_EQ(again.begin_dm, steps.begin_dm);
     ASSERT_EQ(again.length_dm, steps.length_dm);
   }
@@ -212,6 +231,7 @@ TEST(LandmarkTable, ValuesBeyondTheLastStepTakeIt) {
   landmark.size_m = 1e-9F;
   landmark.size_sigma = 1.5F;
   landmark.along = {9, 9000};
+  landmark.right_m = -40;
   const LandmarkSteps steps = steps_of(landmark, 10);
   EXPECT_THAT((std::array{steps.east_cm, steps.north_cm}), ElementsAre(INT16_MAX, INT16_MIN));
   EXPECT_EQ(steps.depth_sigma, 0);
@@ -219,6 +239,7 @@ TEST(LandmarkTable, ValuesBeyondTheLastStepTakeIt) {
   EXPECT_EQ(steps.size_sigma, 250);
   EXPECT_EQ(steps.begin_dm, 0);
   EXPECT_EQ(steps.length_dm, 65535);
+  EXPECT_EQ(steps.right_dm, -127);
 }
 
 TEST(LandmarkTable, TakesATileWithoutLandmarks) {
@@ -295,6 +316,13 @@ const std::vector<Violation> kViolations = testing::with_broken_heads<Table>({
        t.passes = {2, 0};
      },
      "tile s/12, landmark 1: no pass (FORMAT.md 5.10)"},
+    {"ShortRight", [](Table& t) { t.right_dm = {2}; },
+     "tile s/12: right_dm are not as many as observations (FORMAT.md 5.11)"},
+    {"RightBelowTheLeast",
+     [](Table& t) {
+       t.right_dm = {0, -128};
+     },
+     "tile s/12, landmark 1: right_dm is -128 (FORMAT.md 5.11)"},
 });
 
 INSTANTIATE_TEST_SUITE_P(Each, LandmarkViolation, ::testing::ValuesIn(kViolations),
