@@ -164,8 +164,8 @@ void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorde
 
 void adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
                   const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
-                  const AdjustmentSettings& given) {
-  AdjustmentSettings settings = given;
+                  const AdjustmentSettings& settings) {
+  AdjustmentSettings used = settings;
   std::vector<PoseBlock> recorded;
   recorded.reserve(poses.size());
   for (const CameraPose& pose : poses) recorded.push_back(block_from(pose));
@@ -175,11 +175,11 @@ void adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
     std::vector<PoseBlock> blocks;
     blocks.reserve(poses.size());
     for (const CameraPose& pose : poses) blocks.push_back(block_from(pose));
-    solve(blocks, recorded, final_frames, fitting, camera, settings);
+    solve(blocks, recorded, final_frames, fitting, camera, used);
     for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_from(blocks[i].data());
     if (final_frames == poses.size()) continue;
-    settings.position_sigma_m = std::clamp(position_spread_m(poses, recorded, final_frames),
-                                           given.least_position_sigma_m, given.position_sigma_m);
+    used.position_sigma_m = std::clamp(position_spread_m(poses, recorded, final_frames),
+                                       settings.least_position_sigma_m, settings.position_sigma_m);
   }
 }
 
