@@ -24,7 +24,7 @@ struct PoseError {
   double roll_rad = 0;  // about the road's direction, at the road's line
 
   bool is_zero() const { return enu_m.isZero(0) && roll_rad == 0; }
-  // By how much a landmark at `enu_m` in the place's frame is displaced.
+  // By how much a landmark that is there in the place's frame is displaced.
   Eigen::Vector3d displacement_m(const RoadPlace& place, const Eigen::Vector3d& landmark_m) const {
     return enu_m + roll_rad * place.forward.cross(landmark_m);
   }
