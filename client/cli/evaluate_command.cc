@@ -23,8 +23,8 @@ constexpr const char* kEvaluateDescription =
 
 Writes summary.json, fixes-METHOD.csv and report.html into the output folder.
 fixes-METHOD.csv has the columns of localize up to latency_ms; then truth_along_m, error_m, lateral_m,
-heading_deg, lateral_sigma_m, truth_lateral_m, lateral_error_m, heading_error_deg, truth_segment and
-distance_m (in plan, from the recorded position to the fix).
+heading_deg, lateral_sigma_m, truth_lateral_m, lateral_error_m, heading_error_deg, truth_segment,
+distance_m (in plan, from the recorded position to the fix) and sigma_map_m.
 An error is the fix minus the truth: the nearest point of the segments that the recorded position,
 heading and altitude belong to. Arc length and lateral offset are relative to the segment's line,
 lateral positive to the right; the true heading is the recorded one. A fix on another road is wrong

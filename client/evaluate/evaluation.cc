@@ -14,10 +14,12 @@ namespace {
 void summarize_errors(const std::vector<EvaluatedFix>& fixes, Summary& summary) {
   std::vector<double> errors_m;
   double within = 0;
+  double within_map = 0;
   for (const EvaluatedFix& fix : fixes) {
     if (!fix.error_m) continue;
     errors_m.push_back(std::abs(*fix.error_m));
     if (errors_m.back() <= 2 * fix.frame.fix.sigma_m) ++within;
+    if (errors_m.back() <= 2 * fix.frame.fix.sigma_map_m) ++within_map;
   }
   std::sort(errors_m.begin(), errors_m.end());
   summary.localized_frames = errors_m.size();
@@ -27,6 +29,7 @@ void summarize_errors(const std::vector<EvaluatedFix>& fixes, Summary& summary) 
   summary.p50_error_m = quantile(errors_m, 0.5);
   summary.p95_error_m = quantile(errors_m, 0.95);
   summary.within_2_sigma = within / static_cast<double>(errors_m.size());
+  summary.within_2_sigma_map = within_map / static_cast<double>(errors_m.size());
 }
 
 using ErrorOfFix = std::optional<double> EvaluatedFix::*;

@@ -68,6 +68,7 @@ struct Summary {
   ErrorFigures heading_error_deg;
   ErrorFigures distance_m;  // in plan, of all fixes with a position
   std::size_t wrong_segment_frames = 0;
+  double within_2_sigma_map = 0;  // as within_2_sigma, of the sigma against the map
 
   bool knows_lateral() const { return std::isfinite(lateral_error_m.mean); }
 };

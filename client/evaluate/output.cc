@@ -16,12 +16,15 @@ constexpr const char* kFixColumns =
     "timestamp_s,filename,status,segment,along_m,sigma_m,latitude_deg,longitude_deg,matches,"
     "latency_ms";
 constexpr const char* kPoseColumns = "lateral_m,heading_deg,lateral_sigma_m";
+constexpr const char* kMapColumn = "sigma_map_m";
+
+bool has_sigma(const Fix& fix) { return fix.along_m || fix.position; }
 
 void add_fix(CsvText& csv, const FrameFix& frame) {
   const Fix& fix = frame.fix;
   csv.rounded(fix.timestamp_s, 4).cell(frame.filename).cell(name_of(fix.status)).cell(fix.segment);
   csv.rounded(fix.along_m, 4);
-  csv.rounded(fix.along_m || fix.position ? std::optional(fix.sigma_m) : std::nullopt, 4);
+  csv.rounded(has_sigma(fix) ? std::optional(fix.sigma_m) : std::nullopt, 4);
   csv.rounded(fix.position ? std::optional(fix.position->latitude_deg) : std::nullopt, 9);
   csv.rounded(fix.position ? std::optional(fix.position->longitude_deg) : std::nullopt, 9);
   csv.cell(static_cast<long long>(fix.matches)).rounded(frame.latency_ms, 2);
@@ -29,6 +32,10 @@ void add_fix(CsvText& csv, const FrameFix& frame) {
 
 void add_pose(CsvText& csv, const Fix& fix) {
   csv.rounded(fix.lateral_m, 4).rounded(fix.heading_deg, 4).rounded(fix.lateral_sigma_m, 4);
+}
+
+void add_map_sigma(CsvText& csv, const Fix& fix) {
+  csv.rounded(has_sigma(fix) ? std::optional(fix.sigma_map_m) : std::nullopt, 4);
 }
 
 nlohmann::ordered_json figure(double value) {
@@ -52,10 +59,11 @@ const OutputKind kFixesOutput = {"a table of fixes", begins_fixes, true};
 const OutputKind kSummaryOutput = {"a summary of an evaluation", begins_summary, true};
 
 std::string fixes_csv(const std::vector<FrameFix>& fixes) {
-  CsvText csv(std::string(kFixColumns) + "," + kPoseColumns);
+  CsvText csv(std::string(kFixColumns) + "," + kPoseColumns + "," + kMapColumn);
   for (const FrameFix& frame : fixes) {
     add_fix(csv, frame);
     add_pose(csv, frame.fix);
+    add_map_sigma(csv, frame.fix);
     csv.end_row();
   }
   return csv.text();
@@ -63,14 +71,17 @@ std::string fixes_csv(const std::vector<FrameFix>& fixes) {
 
 std::string evaluated_fixes_csv(const std::vector<EvaluatedFix>& fixes) {
   CsvText csv(std::string(kFixColumns) + ",truth_along_m,error_m," + kPoseColumns +
-              ",truth_lateral_m,lateral_error_m,heading_error_deg,truth_segment,distance_m");
+              ",truth_lateral_m,lateral_error_m,heading_error_deg,truth_segment,distance_m," +
+              kMapColumn);
   for (const EvaluatedFix& fix : fixes) {
     add_fix(csv, fix.frame);
     csv.rounded(fix.truth_along_m, 4).rounded(fix.error_m, 4);
     add_pose(csv, fix.frame.fix);
     csv.rounded(fix.truth_lateral_m, 4).rounded(fix.lateral_error_m, 4);
     csv.rounded(fix.heading_error_deg, 4);
-    csv.cell(fix.truth_segment).rounded(fix.distance_m, 4).end_row();
+    csv.cell(fix.truth_segment).rounded(fix.distance_m, 4);
+    add_map_sigma(csv, fix.frame.fix);
+    csv.end_row();
   }
   return csv.text();
 }
@@ -101,7 +112,8 @@ std::string summary_json(const std::vector<MethodEvaluation>& methods) {
                     {"mean_distance_m", figure(summary.distance_m.mean)},
                     {"p95_distance_m", figure(summary.distance_m.p95)},
                     {"max_distance_m", figure(summary.distance_m.max)},
-                    {"wrong_segment_frames", summary.wrong_segment_frames}});
+                    {"wrong_segment_frames", summary.wrong_segment_frames},
+                    {"within_2_sigma_map", figure(summary.within_2_sigma_map)}});
   }
   return list.dump(1) + "\n";
 }

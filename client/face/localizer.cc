@@ -86,6 +86,7 @@ Fix Localizer::Impl::face_of(const milepost::Fix& internal) const {
   fix.segment = internal.segment;
   fix.along_m = internal.along_m;
   fix.sigma_m = internal.sigma_m;
+  fix.sigma_map_m = internal.sigma_map_m;
   fix.lateral_m = internal.lateral_m;
   fix.lateral_sigma_m = internal.lateral_sigma_m;
   if (internal.camera) fix.pose = vehicle_pose_of(*internal.camera, camera.mounting);

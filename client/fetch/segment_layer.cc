@@ -37,8 +37,9 @@ Result<std::shared_ptr<const SegmentLayer>> read_segment_layer(
   }
   Result<std::vector<TileEntry>> index = source.tile_index(key.version, key.segment, layer);
   if (!index) return index.error();
-  return std::make_shared<const SegmentLayer>(SegmentLayer{
-      key, layer, std::move(build), std::move(*line), std::move(*index), description->successors});
+  return std::make_shared<const SegmentLayer>(
+      SegmentLayer{key, layer, std::move(build), std::move(*line), std::move(*index),
+                   description->successors, description->position_error});
 }
 
 }  // namespace milepost

@@ -28,6 +28,7 @@ struct SegmentLayer {
   RouteLine line;
   std::vector<TileEntry> index;            // of all its tiles, ascending
   std::vector<Successor> successors = {};  // each with the name of its map
+  PositionError position_error = {};       // of the segment
 
   const std::string& map() const { return key.version.map; }
   const LayerParameters& parameters() const { return build->parameters; }

@@ -26,17 +26,18 @@ struct Fix {
   MapVersion version;             // empty unless a segment is known
   std::string segment;            // empty unless known
   std::optional<double> along_m;  // [0, length of the segment]
-  // One standard deviation of along_m; until a hypothesis is accepted, of all hypotheses and
-  // elsewhere; off the map, of the position in plan.
+  // One standard deviation of along_m in the world, where the map has an error of its own; until a
+  // hypothesis is accepted, of all hypotheses and elsewhere; off the map, of the position in plan.
   double sigma_m = 0;
+  double sigma_map_m = 0;  // the same against the map, as if its positions were exact
   // Only of methods that estimate the camera's pose, not just its arc length:
   std::optional<double> lateral_m;        // from the segment's line, positive to the right
-  std::optional<double> lateral_sigma_m;  // one standard deviation
+  std::optional<double> lateral_sigma_m;  // one standard deviation, in the world
   std::optional<double> heading_deg;      // of the camera, clockwise from north, [0, 360)
   // Position of the camera; where its lateral offset is unknown, on the line at along_m. Off the
   // map where its motion has carried it, as long as that is known to some 30 m.
   std::optional<GeoPoint> position;
-  std::optional<GeoCameraPose> camera;  // the pose in six degrees of freedom
+  std::optional<GeoCameraPose> camera;  // the pose in six degrees of freedom, in the world
   int matches = 0;                      // inlier features of the measurement
 };
 

@@ -119,7 +119,10 @@ std::optional<Hypothesis> Hypothesis::continued_on(
 void Hypothesis::weigh(double best, const std::optional<GnssFix>& reading) {
   weighed = true;
   odds.add_frame(log_bayes_factor, best, way_m());
-  if (reading) odds.add(receiver.log_bayes_factor(*reading, position(), timestamp_s));
+  if (!reading) return;
+  GnssFix against_map = *reading;  // a receiver may know the world better than the map does
+  against_map.sigma_m = std::hypot(reading->sigma_m, layer().position_error.sigma_m.value_or(0));
+  odds.add(receiver.log_bayes_factor(against_map, position(), timestamp_s));
 }
 
 std::vector<Hypothesis> weigh(std::vector<Hypothesis>& hypotheses,

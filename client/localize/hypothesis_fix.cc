@@ -34,17 +34,32 @@ Fix fix_of(const Hypothesis& hypothesis, const TrackedPose& pose, double timesta
   fix.version = hypothesis.layer().key.version;
   fix.segment = hypothesis.layer().key.segment;
   fix.along_m = std::clamp(pose.along_m, 0.0, line.length_m());
-  fix.sigma_m = std::hypot(pose.sigma_m, hypothesis.apart_m);
+  const double map_sigma_m = hypothesis.layer().position_error.sigma_m.value_or(0);
+  const double shared_m = std::hypot(hypothesis.apart_m, map_sigma_m);
+  fix.sigma_m = std::hypot(pose.sigma_m, shared_m);
+  fix.sigma_map_m = std::hypot(pose.sigma_m, hypothesis.apart_m);
   fix.position = line.point_at(*fix.along_m);
   if (pose.full) {
     fix.lateral_m = pose.full->lateral_m;
-    fix.lateral_sigma_m = std::hypot(pose.full->lateral_sigma_m, hypothesis.apart_m);
+    fix.lateral_sigma_m = std::hypot(pose.full->lateral_sigma_m, shared_m);
     fix.camera = pose.full->camera;
-    widen_in_plan(*fix.camera, hypothesis.apart_m);
+    widen_in_plan(*fix.camera, shared_m);
     fix.heading_deg = fix.camera->heading_deg;
     fix.position = fix.camera->position;
   }
   return fix;
+}
+
+void carry_on(Fix& fix, const Hypothesis& hypothesis, double timestamp_s) {
+  const auto in_plan_m = [](const GeoCameraPose& camera) {
+    return std::sqrt(camera.covariance[0] + camera.covariance[7]);
+  };
+  fix.camera = hypothesis.tracker->pose_at(timestamp_s).full->camera;
+  fix.position = fix.camera->position;
+  fix.heading_deg = fix.camera->heading_deg;
+  fix.sigma_map_m = in_plan_m(*fix.camera);
+  widen_in_plan(*fix.camera, hypothesis.layer().position_error.sigma_m.value_or(0));
+  fix.sigma_m = in_plan_m(*fix.camera);
 }
 
 void widen(Fix& fix, double log_odds, const Hypothesis& hypothesis,
@@ -64,6 +79,7 @@ void widen(Fix& fix, double log_odds, const Hypothesis& hypothesis,
   }
   const double spread_m = std::sqrt(square_m2 / weights);
   fix.sigma_m = std::hypot(fix.sigma_m, spread_m);
+  fix.sigma_map_m = std::hypot(fix.sigma_map_m, spread_m);
   if (fix.lateral_sigma_m) fix.lateral_sigma_m = std::hypot(*fix.lateral_sigma_m, spread_m);
   if (fix.camera) widen_in_plan(*fix.camera, spread_m);
 }

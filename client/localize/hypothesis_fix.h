@@ -20,6 +20,10 @@ Fix fix_of(const Hypothesis& hypothesis, FixStatus status);
 Fix fix_of(const Hypothesis& hypothesis, const TrackedPose& pose, double timestamp_s,
            FixStatus status);
 
+// Fills in the pose that the motion has carried a hypothesis to, off the map. REQUIRES: its tracker
+// knows the full pose.
+void carry_on(Fix& fix, const Hypothesis& hypothesis, double timestamp_s);
+
 // Widens the sigmas of an uncertain hypothesis to cover all hypotheses and "elsewhere", which is at
 // the GNSS fix if there is one. `log_odds` are the hypothesis' against elsewhere.
 void widen(Fix& fix, double log_odds, const Hypothesis& hypothesis,

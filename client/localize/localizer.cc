@@ -372,11 +372,7 @@ Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
 Fix Localizer::Impl::unclaimed(const Searching& searching, double timestamp_s) const {
   Fix fix = unlocated(timestamp_s, searching.waiting);
   if (searching.waiting != FixStatus::off_map || !left_at(searching, timestamp_s)) return fix;
-  const TrackedPose pose = searching.left->tracker->pose_at(timestamp_s);
-  fix.camera = pose.full->camera;
-  fix.position = fix.camera->position;
-  fix.heading_deg = fix.camera->heading_deg;
-  fix.sigma_m = std::sqrt(fix.camera->covariance[0] + fix.camera->covariance[7]);
+  carry_on(fix, *searching.left, timestamp_s);
   return fix;
 }
 

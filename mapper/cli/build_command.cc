@@ -134,6 +134,16 @@ std::string repeated_of(const MapReport& map) {
   return ", " + fixed(100 * share, 0) + " % seen by two drives or more";
 }
 
+// How well the map's positions are known in the world.
+std::string position_of(const MapReport& map) {
+  const double sigma_m = std::sqrt(map.position_square_m3 / map.length_m);
+  const double assumed = map.assumed_m / map.length_m;
+  std::string text = ", positions to " + fixed(sigma_m, 3) + " m";
+  if (assumed >= 0.995) return text + " (assumed)";
+  if (assumed > 0) text += " (assumed on " + fixed(100 * assumed, 0) + " % of the road)";
+  return text;
+}
+
 std::string summary_line(const MapReport& map, std::size_t frames) {
   const std::string segments =
       std::to_string(map.segments) + (map.segments == 1 ? " segment of " : " segments of ");
@@ -142,7 +152,8 @@ std::string summary_line(const MapReport& map, std::size_t frames) {
   return map.file.string() + ": build " + map.build + ", " + segments + fixed(map.length_m, 1) +
          " m, " + std::to_string(frames) + " frames, " + std::to_string(map.tracklets) +
          " tracklets (" + fixed(tracklets_a_metre, 1) + " per metre) in " +
-         std::to_string(map.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m" + repeated_of(map);
+         std::to_string(map.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m" +
+         repeated_of(map) + position_of(map);
 }
 
 // The division that the options ask for, if any.

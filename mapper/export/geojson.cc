@@ -131,12 +131,16 @@ Result<GeoJson> segments_geojson(const MapReader& map) {
       return Error{ErrorCode::corrupt, map.file().string() + ", segment " + id,
                    "a line needs two or more vertices", "rebuild the map"};
     }
-    collection.add(
-        positions_of(segment->vertices),
-        {{"id", id},
-         {"length_m", segment->length_m},
-         {"successors", successors_json(segment->successors, map.file().stem().string())},
-         {"passes", passes_json(segment->passes)}});
+    nlohmann::ordered_json properties = {
+        {"id", id},
+        {"length_m", segment->length_m},
+        {"successors", successors_json(segment->successors, map.file().stem().string())},
+        {"passes", passes_json(segment->passes)}};
+    if (const PositionError& error = segment->position_error; error.sigma_m) {
+      properties["position_sigma_m"] = *error.sigma_m;
+      properties["assumed"] = error.is_assumed;
+    }
+    collection.add(positions_of(segment->vertices), std::move(properties));
   }
   return std::move(collection).finish();
 }

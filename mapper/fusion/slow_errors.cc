@@ -30,17 +30,13 @@ ErrorVector on_axes(const ByKind& of_kind) {
   return {of_kind[0], of_kind[0], of_kind[0], of_kind[1]};
 }
 
-// Estimated variances of one drive's errors on each axis.
-struct Variances {
-  ByKind bias = ByKind::Zero();
-  ByKind drift = ByKind::Zero();
-};
-
-// A linear function of one or more nodes, each with all axes.
+// The product of an axis' node and its factor: part of a linear function.
 struct Term {
   Eigen::Index node = 0;
-  double factor = 0;
+  ErrorVector factor;
 };
+
+Term term(Eigen::Index node, double factor) { return {node, ErrorVector::Constant(factor)}; }
 
 double robust_weight(double squared_sigmas, double scale) {
   // Of a Student's t of this many degrees of freedom, at residuals divided by `scale` (graduated
@@ -49,30 +45,32 @@ double robust_weight(double squared_sigmas, double scale) {
   return (kDegrees + kAxes) / (kDegrees + squared_sigmas / (scale * scale));
 }
 
-// The drives that ties connect, directly or over others.
+// Of drives that ties or a common bias connect, directly or over others. Its unknowns are errors in
+// units of the sigma that is stated, relative to that of the settings.
 class Component {
  public:
-  Component(const std::vector<DrivenStretch>& stretches, const std::vector<std::size_t>& members,
-            std::vector<Tie> ties, const SlowErrorSettings& settings)
-      : settings_(settings), ties_(std::move(ties)) {
+  Component(const std::vector<DriveErrors>& drives, const std::vector<DrivenStretch>& stretches,
+            const std::vector<std::size_t>& members, std::vector<Tie> ties,
+            const SlowErrorSettings& settings)
+      : drives_(drives), stretches_(stretches), settings_(settings), ties_(std::move(ties)) {
+    const ByKind bias = ByKind(settings.bias_sigma_m, settings.bias_roll_sigma_rad).cwiseAbs2();
+    const ByKind drift = ByKind(settings.drift_sigma_m, settings.drift_roll_sigma_rad).cwiseAbs2();
     for (const std::size_t stretch : members) {
       const std::size_t drive = stretches[stretch].drive;
-      const auto [known, is_new] = bias_node_.try_emplace(drive, next_);
-      if (is_new) ++next_;
-      const auto count = static_cast<Eigen::Index>(
-                             std::ceil(stretches[stretch].length_m / settings.node_spacing_m)) +
-                         1;
+      Bias& of_drive =
+          biases_.try_emplace(drives[drive].bias, Bias{next_, bias, false}).first->second;
+      if (of_drive.node == next_) ++next_;
+      of_drive.is_stated = of_drive.is_stated || drives[drive].sigma_m;
+      drifts_.try_emplace(drive, drift);
+      if (stretches[stretch].same_way) continue;
+      const auto count =
+          static_cast<Eigen::Index>(node_count(stretches[stretch].length_m, settings));
       chains_[stretch] = {drive, next_, count};
       next_ += count;
     }
-    for (const auto& [drive, node] : bias_node_) {
-      variances_[drive] = {
-          ByKind(settings.bias_sigma_m, settings.bias_roll_sigma_rad).cwiseAbs2(),
-          ByKind(settings.drift_sigma_m, settings.drift_roll_sigma_rad).cwiseAbs2()};
-    }
   }
 
-  void solve(std::vector<std::vector<SlowErrors::Node>>& nodes) {
+  void solve(std::vector<SlowErrors::OfStretch>& found) {
     constexpr std::array<double, 4> kScales = {8, 4, 2, 1};
     constexpr int kMaxIterations = 24;
     constexpr double kSettledM = 2e-4;
@@ -87,26 +85,54 @@ class Component {
       for (std::size_t i = 0; i < ties_.size(); ++i) weights[i] = weight_of(ties_[i], scale);
       update_variances();
     }
+    const bool tells_biases = std::ranges::any_of(
+        ties_, [&](const Tie& tie) { return bias_of(tie.a.stretch) != bias_of(tie.b.stretch); });
     for (const auto& [stretch, chain] : chains_) {
+      found[stretch].is_assumed = !tells_biases && is_assumed(drives_[chain.drive]);
       for (Eigen::Index k = 0; k < chain.count; ++k) {
-        SlowErrors::Node& node = nodes[stretch].emplace_back();
+        SlowErrors::Node& node = found[stretch].nodes.emplace_back();
+        const ErrorVector scale = scale_of(stretch, static_cast<std::size_t>(k));
         for (int axis = 0; axis < kAxes; ++axis) {
           const Eigen::Index i = kAxes * (chain.first + k) + axis;
-          node.error[axis] = x_[i];
-          node.variance[axis] = (*inverse_)(i, i);
+          node.error[axis] = scale[axis] * x_[i];
+          node.variance[axis] = scale[axis] * scale[axis] * (*inverse_)(i, i);
         }
       }
     }
   }
 
  private:
+  struct Bias {
+    Eigen::Index node = 0;
+    ByKind variance;
+    bool is_stated = false;
+  };
   struct Chain {
     std::size_t drive = 0;
     Eigen::Index first = 0;  // node
     Eigen::Index count = 0;
   };
 
-  double decay() const { return std::exp(-settings_.node_spacing_m / settings_.correlation_m); }
+  static bool is_assumed(const DriveErrors& drive) {
+    return !drive.sigma_m || drive.sigma_is_assumed;
+  }
+
+  std::size_t bias_of(std::size_t stretch) const { return drives_[stretches_[stretch].drive].bias; }
+
+  double decay(std::size_t drive) const {
+    const double correlation_m = drives_[drive].correlation_m.value_or(settings_.correlation_m);
+    return std::exp(-settings_.node_spacing_m / correlation_m);
+  }
+
+  // Of a node's errors; of positions what is stated, relative to the settings.
+  ErrorVector scale_of(std::size_t stretch, std::size_t node) const {
+    const double usual_m = std::hypot(settings_.bias_sigma_m, settings_.drift_sigma_m);
+    const std::vector<double>& factors = stretches_[stretch].sigma_factors;
+    double sigma_m = drives_[stretches_[stretch].drive].sigma_m.value_or(usual_m);
+    if (!factors.empty()) sigma_m *= factors[node];
+    const double scale = std::max(sigma_m, settings_.min_sigma_m) / usual_m;
+    return {scale, scale, scale, 1};
+  }
 
   std::array<Term, 2> at(const StretchPlace& place, double sign) const {
     const Chain& chain = chains_.at(place.stretch);
@@ -114,7 +140,9 @@ class Component {
     const double where = std::clamp(place.along_m / settings_.node_spacing_m, 0.0, last);
     const auto before = std::min(static_cast<Eigen::Index>(where), chain.count - 2);
     const double part = where - static_cast<double>(before);
-    return {{{chain.first + before, sign * (1 - part)}, {chain.first + before + 1, sign * part}}};
+    const auto node = static_cast<std::size_t>(before);
+    return {{{chain.first + before, sign * (1 - part) * scale_of(place.stretch, node)},
+             {chain.first + before + 1, sign * part * scale_of(place.stretch, node + 1)}}};
   }
 
   std::array<Term, 4> terms_of(const Tie& tie) const {
@@ -127,13 +155,14 @@ class Component {
   template <class Visit>
   void visit_drift(Visit visit) const {
     for (const auto& [stretch, chain] : chains_) {
-      const Eigen::Index bias = bias_node_.at(chain.drive);
-      visit(chain.drive, std::array<Term, 2>{{{chain.first, 1}, {bias, -1}}}, 1.0);
+      const Eigen::Index bias = biases_.at(drives_[chain.drive].bias).node;
+      const double kept = decay(chain.drive);
+      visit(chain.drive, std::array<Term, 2>{{term(chain.first, 1), term(bias, -1)}}, 1.0);
       for (Eigen::Index k = 1; k < chain.count; ++k) {
         visit(chain.drive,
-              std::array<Term, 3>{
-                  {{chain.first + k, 1}, {chain.first + k - 1, -decay()}, {bias, -(1 - decay())}}},
-              1 - decay() * decay());
+              std::array<Term, 3>{{term(chain.first + k, 1), term(chain.first + k - 1, -kept),
+                                   term(bias, -(1 - kept))}},
+              1 - kept * kept);
       }
     }
   }
@@ -145,12 +174,12 @@ class Component {
                          const ErrorVector& value) {
       const ErrorVector weighted = information * value;
       for (const Term& a : terms) {
-        right.segment<kAxes>(kAxes * a.node) += a.factor * weighted;
+        right.segment<kAxes>(kAxes * a.node) += a.factor.cwiseProduct(weighted);
         for (const Term& b : terms) {
           for (int i = 0; i < kAxes; ++i) {
             for (int j = 0; j < kAxes; ++j) {
               elements.emplace_back(kAxes * a.node + i, kAxes * b.node + j,
-                                    a.factor * b.factor * information(i, j));
+                                    a.factor[i] * b.factor[j] * information(i, j));
             }
           }
         }
@@ -160,12 +189,10 @@ class Component {
     const auto information_of = [](const ByKind& variances) -> ErrorMatrix {
       return on_axes(variances.cwiseInverse()).asDiagonal();
     };
-    for (const auto& [drive, node] : bias_node_) {
-      const std::array<Term, 1> bias = {{{node, 1}}};
-      add(bias, information_of(variances_[drive].bias), zero);
-    }
+    for (const auto& [number, bias] : biases_)
+      add(std::array<Term, 1>{term(bias.node, 1)}, information_of(bias.variance), zero);
     visit_drift([&](std::size_t drive, std::span<const Term> terms, double relative) {
-      add(terms, information_of(relative * variances_[drive].drift), zero);
+      add(terms, information_of(relative * drifts_.at(drive)), zero);
     });
     for (std::size_t i = 0; i < ties_.size(); ++i) {
       const ErrorMatrix information = ties_[i].covariance.inverse();
@@ -180,8 +207,8 @@ class Component {
 
   double weight_of(const Tie& tie, double scale) const {
     ErrorVector off = -tie.difference;
-    for (const Term& term : terms_of(tie))
-      off += term.factor * x_.segment<kAxes>(kAxes * term.node);
+    for (const Term& part : terms_of(tie))
+      off += part.factor.cwiseProduct(x_.segment<kAxes>(kAxes * part.node));
     return robust_weight(off.dot(tie.covariance.ldlt().solve(off)), scale);
   }
 
@@ -198,9 +225,10 @@ class Component {
     for (int axis = kind.first; axis < kind.first + kind.axes; ++axis) {
       double value = 0;
       for (const Term& a : terms) {
-        value += a.factor * x_[kAxes * a.node + axis];
+        value += a.factor[axis] * x_[kAxes * a.node + axis];
         for (const Term& b : terms) {
-          sum += a.factor * b.factor * (*inverse_)(kAxes * a.node + axis, kAxes * b.node + axis);
+          sum += a.factor[axis] * b.factor[axis] *
+                 (*inverse_)(kAxes * a.node + axis, kAxes * b.node + axis);
         }
       }
       sum += value * value;
@@ -214,38 +242,47 @@ class Component {
     constexpr double kBiasPrior = 3;  // values that what is common to all counts as
     constexpr double kDriftPrior = 15;
     const ByKind axes(kKinds[0].axes, kKinds[1].axes);
-    std::map<std::size_t, Squares> bias;
-    std::map<std::size_t, Squares> drift;
-    for (const auto& [drive, node] : bias_node_) {
-      const std::array<Term, 1> terms = {{{node, 1}}};
-      bias[drive] = {expected_squares(terms), axes};
+    std::vector<Squares> of_bias;
+    for (const auto& [number, bias] : biases_) {
+      const std::array<Term, 1> terms = {term(bias.node, 1)};
+      of_bias.push_back({expected_squares(terms), axes, bias.is_stated});
     }
+    std::map<std::size_t, Squares> of_drift;
     visit_drift([&](std::size_t drive, std::span<const Term> terms, double relative) {
-      drift[drive].sums += expected_squares(terms) / relative;
-      drift[drive].counts += axes;
+      Squares& squares = of_drift[drive];
+      squares.sums += expected_squares(terms) / relative;
+      squares.counts += axes;
+      squares.is_stated = drives_[drive].sigma_m.has_value();
     });
-    const ByKind common_bias = common(bias);
-    const ByKind common_drift = common(drift);
-    for (auto& [drive, variances] : variances_) {
-      variances.bias = drawn_to(common_bias, kBiasPrior, bias[drive]);
-      variances.drift = drawn_to(common_drift, kDriftPrior, drift[drive]);
-    }
+    const ByKind common_bias = common(of_bias, settings_.bias_sigma_m);
+    std::size_t next = 0;
+    for (auto& [number, bias] : biases_)
+      bias.variance = drawn_to(common_bias, kBiasPrior, of_bias[next++], settings_.bias_sigma_m);
+    std::vector<Squares> all_drifts;
+    for (const auto& [drive, squares] : of_drift) all_drifts.push_back(squares);
+    const ByKind common_drift = common(all_drifts, settings_.drift_sigma_m);
+    for (const auto& [drive, squares] : of_drift)
+      drifts_.at(drive) = drawn_to(common_drift, kDriftPrior, squares, settings_.drift_sigma_m);
   }
 
   // Sums of squares, and of how many values.
   struct Squares {
     ByKind sums = ByKind::Zero();
     ByKind counts = ByKind::Zero();
+    bool is_stated = false;  // of positions, in units of what was stated
   };
 
-  // The medians of the drives' mean squares.
-  ByKind common(const std::map<std::size_t, Squares>& squares) const {
+  // The medians of the drives' mean squares; of positions where none is known, `usual_m` squared.
+  ByKind common(const std::vector<Squares>& squares, double usual_m) const {
     ByKind medians = ByKind(settings_.min_sigma_m, settings_.min_roll_sigma_rad).cwiseAbs2();
     for (Eigen::Index kind = 0; kind < medians.size(); ++kind) {
       std::vector<double> means;
       means.reserve(squares.size());
-      for (const auto& [drive, of_drive] : squares)
-        means.push_back(of_drive.sums[kind] / of_drive.counts[kind]);
+      for (const Squares& each : squares) {
+        if (kind == 0 && each.is_stated) continue;
+        means.push_back(each.sums[kind] / each.counts[kind]);
+      }
+      if (means.empty()) means.push_back(usual_m * usual_m);
       std::ranges::sort(means);
       const std::size_t middle = means.size() / 2;
       const double median =
@@ -255,58 +292,96 @@ class Component {
     return medians;
   }
 
-  static ByKind drawn_to(const ByKind& common, double prior, const Squares& own) {
-    return ((prior * common + own.sums).array() / (prior + own.counts.array())).matrix();
+  // What is stated counts as common, and as the least.
+  static ByKind drawn_to(ByKind common, double prior, const Squares& own, double stated_m) {
+    if (own.is_stated) common[0] = stated_m * stated_m;
+    ByKind drawn = ((prior * common + own.sums).array() / (prior + own.counts.array())).matrix();
+    if (own.is_stated) drawn[0] = std::max(drawn[0], common[0]);
+    return drawn;
   }
 
+  const std::vector<DriveErrors>& drives_;
+  const std::vector<DrivenStretch>& stretches_;
   const SlowErrorSettings& settings_;
   std::vector<Tie> ties_;
-  std::map<std::size_t, Eigen::Index> bias_node_;  // of each drive
-  std::map<std::size_t, Chain> chains_;            // of each stretch
-  Eigen::Index next_ = 0;                          // number of nodes
-  std::map<std::size_t, Variances> variances_;     // of each drive
+  std::map<std::size_t, Bias> biases_;    // by number
+  std::map<std::size_t, ByKind> drifts_;  // variance of each drive
+  std::map<std::size_t, Chain> chains_;   // of each stretch that has its own
+  Eigen::Index next_ = 0;                 // number of nodes
   Eigen::VectorXd x_;
   std::optional<SelectedInverse> inverse_;
 };
 
 // For each drive the first one that it is connected with.
-std::vector<std::size_t> connected(const std::vector<DrivenStretch>& stretches,
+std::vector<std::size_t> connected(const std::vector<DriveErrors>& drives,
+                                   const std::vector<DrivenStretch>& stretches,
                                    const std::vector<Tie>& ties) {
-  std::size_t drives = 0;
-  for (const DrivenStretch& stretch : stretches) drives = std::max(drives, stretch.drive + 1);
-  std::vector<std::size_t> first(drives);
+  std::vector<std::size_t> first(drives.size());
   std::iota(first.begin(), first.end(), 0);
   const auto root = [&](std::size_t drive) {
     while (first[drive] != drive) drive = first[drive];
     return drive;
   };
-  for (const Tie& tie : ties) {
-    const std::size_t a = root(stretches[tie.a.stretch].drive);
-    const std::size_t b = root(stretches[tie.b.stretch].drive);
+  const auto connect = [&](std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
     first[std::max(a, b)] = std::min(a, b);
-  }
-  for (std::size_t drive = 0; drive < drives; ++drive) first[drive] = root(drive);
+  };
+  std::map<std::size_t, std::size_t> first_of_bias;
+  for (std::size_t drive = 0; drive < drives.size(); ++drive)
+    connect(drive, first_of_bias.try_emplace(drives[drive].bias, drive).first->second);
+  for (const Tie& tie : ties)
+    connect(stretches[tie.a.stretch].drive, stretches[tie.b.stretch].drive);
+  for (std::size_t drive = 0; drive < drives.size(); ++drive) first[drive] = root(drive);
   return first;
+}
+
+// The place on the stretch that has the errors.
+StretchPlace with_errors(const StretchPlace& place, const std::vector<DrivenStretch>& stretches) {
+  const auto& same = stretches[place.stretch].same_way;
+  if (!same) return place;
+  const double part =
+      (place.along_m - same->along.from_m) / (same->along.to_m - same->along.from_m);
+  return {same->stretch, same->there.from_m + part * (same->there.to_m - same->there.from_m)};
 }
 
 }  // namespace
 
-SlowErrors estimate_slow_errors(const std::vector<DrivenStretch>& stretches,
+std::size_t node_count(double length_m, const SlowErrorSettings& settings) {
+  return static_cast<std::size_t>(std::ceil(length_m / settings.node_spacing_m)) + 1;
+}
+
+SlowErrors estimate_slow_errors(const std::vector<DriveErrors>& drives,
+                                const std::vector<DrivenStretch>& stretches,
                                 const std::vector<Tie>& ties, const SlowErrorSettings& settings) {
-  const std::vector<std::size_t> first = connected(stretches, ties);
+  const std::vector<std::size_t> first = connected(drives, stretches, ties);
   std::map<std::size_t, std::vector<std::size_t>> members;
   std::map<std::size_t, std::vector<Tie>> of_component;
   for (std::size_t i = 0; i < stretches.size(); ++i)
     members[first[stretches[i].drive]].push_back(i);
-  for (const Tie& tie : ties) of_component[first[stretches[tie.a.stretch].drive]].push_back(tie);
-  std::vector<std::vector<SlowErrors::Node>> nodes(stretches.size());
+  for (Tie tie : ties) {
+    tie.a = with_errors(tie.a, stretches);
+    tie.b = with_errors(tie.b, stretches);
+    of_component[first[stretches[tie.a.stretch].drive]].push_back(tie);
+  }
+  std::vector<SlowErrors::OfStretch> found(stretches.size());
   for (auto& [drive, of_drive] : members)
-    Component(stretches, of_drive, of_component[drive], settings).solve(nodes);
-  return {std::move(nodes), settings.node_spacing_m};
+    Component(drives, stretches, of_drive, of_component[drive], settings).solve(found);
+  const SlowErrors own(found, settings.node_spacing_m);
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    if (!stretches[i].same_way) continue;
+    found[i].is_assumed = own.is_assumed(stretches[i].same_way->stretch);
+    for (std::size_t k = 0; k < node_count(stretches[i].length_m, settings); ++k) {
+      const double along_m = static_cast<double>(k) * settings.node_spacing_m;
+      const StretchPlace there = with_errors({i, along_m}, stretches);
+      found[i].nodes.push_back(own.at(there.stretch, there.along_m));
+    }
+  }
+  return {std::move(found), settings.node_spacing_m};
 }
 
 SlowErrors::Node SlowErrors::at(std::size_t stretch, double along_m) const {
-  const std::vector<Node>& nodes = nodes_[stretch];
+  const std::vector<Node>& nodes = stretches_[stretch].nodes;
   const double where = std::clamp(along_m / spacing_m_, 0.0, static_cast<double>(nodes.size() - 1));
   const auto before = std::min(static_cast<std::size_t>(where), nodes.size() - 2);
   const double part = where - static_cast<double>(before);

@@ -45,22 +45,33 @@ struct ImageError {
   }
 };
 
+// Standard deviations of recorded poses.
+struct RecordSigmas {
+  double plan_m = 0;  // east and north
+  double up_m = 0;
+  double heading_rad = 0;
+  double tilt_rad = 0;  // pitch and roll
+};
+
 // Deviation of a pose from the recorded one.
 struct RecordError {
   PoseBlock recorded;
-  AdjustmentSettings settings;
+  RecordSigmas sigmas;
 
   template <class Scalar>
   bool operator()(const Scalar* pose, const Scalar* mounting_yaw, Scalar* residual) const {
-    for (int i = 0; i < 3; ++i) residual[i] = (pose[i] - recorded[i]) / settings.position_sigma_m;
-    const double tilt_rad = settings.tilt_sigma_deg * kRadPerDeg;
-    residual[3] =
-        (pose[3] - recorded[3] - *mounting_yaw) / (settings.heading_sigma_deg * kRadPerDeg);
-    residual[4] = (pose[4] - recorded[4]) / tilt_rad;
-    residual[5] = (pose[5] - recorded[5]) / tilt_rad;
+    for (int i = 0; i < 2; ++i) residual[i] = (pose[i] - recorded[i]) / sigmas.plan_m;
+    residual[2] = (pose[2] - recorded[2]) / sigmas.up_m;
+    residual[3] = (pose[3] - recorded[3] - *mounting_yaw) / sigmas.heading_rad;
+    for (int i = 4; i < 6; ++i) residual[i] = (pose[i] - recorded[i]) / sigmas.tilt_rad;
     return true;
   }
 };
+
+RecordSigmas sigmas_of(const AdjustmentSettings& settings) {
+  return {settings.position_sigma_m, settings.position_sigma_m,
+          settings.heading_sigma_deg * kRadPerDeg, settings.tilt_sigma_deg * kRadPerDeg};
+}
 
 struct MountingError {
   double sigma_rad;
@@ -77,18 +88,26 @@ struct TriangulatedTrack {
   std::array<double, 3> enu_m;
 };
 
+struct FittingTracks {
+  std::vector<TriangulatedTrack> tracks;
+  std::size_t placed = 0;  // tracks that could be triangulated, of which these fit
+
+  double share() const {
+    return placed == 0 ? 1 : static_cast<double>(tracks.size()) / static_cast<double>(placed);
+  }
+};
+
 // The tracks that fit the poses, the longest first, until every frame has `a_frame` of them.
-std::vector<TriangulatedTrack> tracks_that_fit(const std::vector<FeatureTrack>& tracks,
-                                               const std::vector<CameraPose>& poses,
-                                               const Pinhole& camera, double max_rms_px,
-                                               std::size_t a_frame) {
+FittingTracks tracks_that_fit(const std::vector<FeatureTrack>& tracks,
+                              const std::vector<CameraPose>& poses, const Pinhole& camera,
+                              double max_rms_px, std::size_t a_frame) {
   std::vector<std::size_t> order(tracks.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return tracks[a].size() > tracks[b].size();
   });
   std::vector<std::size_t> taken_of_frame(poses.size(), 0);
-  std::vector<TriangulatedTrack> taken;
+  FittingTracks taken;
   for (const std::size_t i : order) {
     const FeatureTrack& track = tracks[i];
     const bool wanted =
@@ -97,27 +116,58 @@ std::vector<TriangulatedTrack> tracks_that_fit(const std::vector<FeatureTrack>& 
         });
     if (!wanted) continue;
     const auto placed = triangulate(track, poses, camera, 1);
-    if (!placed || placed->rms_px > max_rms_px) continue;
+    if (!placed) continue;
     if ((placed->enu_m - poses[track.front().frame].enu_m).norm() > kFarthestM) continue;
+    ++taken.placed;
+    if (placed->rms_px > max_rms_px) continue;
     for (const PixelObservation& observation : track) ++taken_of_frame[observation.frame];
-    taken.push_back({&track, {placed->enu_m.x(), placed->enu_m.y(), placed->enu_m.z()}});
+    taken.tracks.push_back({&track, {placed->enu_m.x(), placed->enu_m.y(), placed->enu_m.z()}});
   }
   return taken;
 }
 
-// How far recorded positions are from the adjusted ones, on each axis.
-double position_spread_m(const std::vector<CameraPose>& poses,
-                         const std::vector<PoseBlock>& recorded, std::size_t final_frames) {
-  double squares = 0;
-  for (std::size_t i = final_frames; i < poses.size(); ++i)
-    squares +=
-        (poses[i].enu_m - Eigen::Map<const Eigen::Vector3d>(recorded[i].data())).squaredNorm();
-  return std::sqrt(squares / (3.0 * static_cast<double>(poses.size() - final_frames)));
+// The mean square, on each axis, of how far recorded poses are from the adjusted ones.
+PoseBlock mean_squares_off(const std::vector<CameraPose>& poses,
+                           const std::vector<PoseBlock>& recorded, std::size_t final_frames,
+                           double mounting_yaw) {
+  PoseBlock squares{};
+  for (std::size_t i = final_frames; i < poses.size(); ++i) {
+    PoseBlock off = block_from(poses[i]);
+    for (std::size_t axis = 0; axis < off.size(); ++axis) off[axis] -= recorded[i][axis];
+    off[3] -= mounting_yaw;
+    for (std::size_t axis = 0; axis < off.size(); ++axis)
+      squares[axis] += off[axis] * off[axis] / static_cast<double>(poses.size() - final_frames);
+  }
+  return squares;
 }
 
-void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorded,
-           std::size_t final_frames, std::vector<TriangulatedTrack>& tracks, const Pinhole& camera,
-           const AdjustmentSettings& settings) {
+// What is believed of recorded poses next. A moderate contradiction changes nothing, for tracks
+// alone distort the road where it turns.
+RecordSigmas believed_sigmas(const PoseBlock& squares, const AdjustmentSettings& settings) {
+  const RecordSigmas first = sigmas_of(settings);
+  const auto unless_contradicted = [&](double usual, double first_sigma, double square,
+                                       double greatest) {
+    const double spread = std::sqrt(square);
+    return spread > settings.contradicted_sigmas * first_sigma ? std::min(spread, greatest) : usual;
+  };
+  // All axes tell how exact the positions are.
+  const double position_m = std::clamp(std::sqrt((squares[0] + squares[1] + squares[2]) / 3),
+                                       settings.least_position_sigma_m, settings.position_sigma_m);
+  RecordSigmas believed = first;
+  believed.plan_m = unless_contradicted(position_m, first.plan_m, (squares[0] + squares[1]) / 2,
+                                        settings.greatest_position_sigma_m);
+  believed.up_m =
+      unless_contradicted(position_m, first.up_m, squares[2], settings.greatest_position_sigma_m);
+  believed.heading_rad = unless_contradicted(first.heading_rad, first.heading_rad, squares[3],
+                                             settings.greatest_heading_sigma_deg * kRadPerDeg);
+  return believed;
+}
+
+// Returns the camera's yaw against the recorded headings.
+double solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorded,
+             std::size_t final_frames, std::vector<TriangulatedTrack>& tracks,
+             const Pinhole& camera, const RecordSigmas& sigmas, double pixel_sigma_px,
+             const AdjustmentSettings& settings) {
   ceres::Problem problem;
   double mounting_yaw = 0;
   ceres::LossFunction* loss = new ceres::CauchyLoss(2);  // owned by the problem once used
@@ -125,8 +175,8 @@ void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorde
   auto* ordering = new ceres::ParameterBlockOrdering;
   for (TriangulatedTrack& track : tracks) {
     for (const PixelObservation& observation : *track.track) {
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ImageError, 2, 6, 3>(new ImageError{
-                                   observation.pixel, camera, settings.pixel_sigma_px}),
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ImageError, 2, 6, 3>(
+                                   new ImageError{observation.pixel, camera, pixel_sigma_px}),
                                loss, blocks[observation.frame].data(), track.enu_m.data());
       loss_used = true;
     }
@@ -139,7 +189,7 @@ void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorde
       problem.SetParameterBlockConstant(blocks[i].data());
     } else {
       problem.AddResidualBlock(new ceres::AutoDiffCostFunction<RecordError, 6, 6, 1>(
-                                   new RecordError{recorded[i], settings}),
+                                   new RecordError{recorded[i], sigmas}),
                                nullptr, blocks[i].data(), &mounting_yaw);
     }
     ordering->AddElementToGroup(blocks[i].data(), 1);
@@ -158,29 +208,94 @@ void solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recorde
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  return mounting_yaw;
 }
+
+// Whether recorded poses are much worse than was thought.
+bool exceeds(const RecordSigmas& found, const RecordSigmas& thought) {
+  constexpr double kMuch = 1.5;
+  return found.plan_m > kMuch * thought.plan_m || found.up_m > kMuch * thought.up_m ||
+         found.heading_rad > kMuch * thought.heading_rad;
+}
+
+class Adjustment {
+ public:
+  Adjustment(std::vector<CameraPose>& poses, std::size_t final_frames,
+             const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
+             const AdjustmentSettings& settings)
+      : poses_(poses),
+        final_frames_(final_frames),
+        tracks_(tracks),
+        camera_(camera),
+        settings_(settings),
+        believed_(sigmas_of(settings)) {
+    recorded_.reserve(poses.size());
+    for (const CameraPose& pose : poses) recorded_.push_back(block_from(pose));
+  }
+
+  void run() {
+    FittingTracks fitting = fitting_within(settings_.max_first_rms_px);
+    if (fitting.share() < settings_.least_fitting) {
+      start_roughly();
+      fitting = fitting_within(settings_.max_first_rms_px);
+    }
+    for (int pass = 1;; ++pass) {
+      const RecordSigmas thought = believed_;
+      solve_with(fitting.tracks, thought, settings_.pixel_sigma_px);
+      const bool is_settled = pass + 1 >= settings_.max_passes || !exceeds(believed_, thought);
+      if (is_settled) break;
+      fitting = fitting_within(settings_.max_first_rms_px);
+    }
+    solve_with(fitting_within(settings_.max_rms_px).tracks, believed_, settings_.pixel_sigma_px);
+  }
+
+ private:
+  FittingTracks fitting_within(double max_rms_px) const {
+    return tracks_that_fit(tracks_, poses_, camera_, max_rms_px, settings_.tracks_a_frame);
+  }
+
+  // Where most tracks contradict the record, it is not known yet which part of it is wrong: large
+  // errors are allowed first, of poses and of pixels.
+  void start_roughly() {
+    const RecordSigmas rough = {settings_.rough_position_sigma_m, settings_.rough_position_sigma_m,
+                                settings_.rough_heading_sigma_deg * kRadPerDeg,
+                                settings_.tilt_sigma_deg * kRadPerDeg};
+    for (const double scale : {16, 4}) {
+      solve_with(fitting_within(scale * settings_.max_first_rms_px).tracks, rough,
+                 scale * settings_.pixel_sigma_px);
+    }
+    believed_ = sigmas_of(settings_);  // what was allowed says nothing of the record
+  }
+
+  // Moves the poses, and finds out what to believe of the recorded ones.
+  void solve_with(std::vector<TriangulatedTrack> fitting, const RecordSigmas& sigmas,
+                  double pixel_sigma_px) {
+    std::vector<PoseBlock> blocks;
+    blocks.reserve(poses_.size());
+    for (const CameraPose& pose : poses_) blocks.push_back(block_from(pose));
+    const double mounting_yaw = solve(blocks, recorded_, final_frames_, fitting, camera_, sigmas,
+                                      pixel_sigma_px, settings_);
+    for (std::size_t i = 0; i < poses_.size(); ++i) poses_[i] = pose_from(blocks[i].data());
+    if (final_frames_ == poses_.size()) return;
+    believed_ = believed_sigmas(mean_squares_off(poses_, recorded_, final_frames_, mounting_yaw),
+                                settings_);
+  }
+
+  std::vector<CameraPose>& poses_;
+  std::size_t final_frames_;
+  const std::vector<FeatureTrack>& tracks_;
+  const Pinhole& camera_;
+  const AdjustmentSettings& settings_;
+  std::vector<PoseBlock> recorded_;
+  RecordSigmas believed_;
+};
 
 }  // namespace
 
 void adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
                   const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
                   const AdjustmentSettings& settings) {
-  AdjustmentSettings used = settings;
-  std::vector<PoseBlock> recorded;
-  recorded.reserve(poses.size());
-  for (const CameraPose& pose : poses) recorded.push_back(block_from(pose));
-  for (const double max_rms_px : {settings.max_first_rms_px, settings.max_rms_px}) {
-    std::vector<TriangulatedTrack> fitting =
-        tracks_that_fit(tracks, poses, camera, max_rms_px, settings.tracks_a_frame);
-    std::vector<PoseBlock> blocks;
-    blocks.reserve(poses.size());
-    for (const CameraPose& pose : poses) blocks.push_back(block_from(pose));
-    solve(blocks, recorded, final_frames, fitting, camera, used);
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_from(blocks[i].data());
-    if (final_frames == poses.size()) continue;
-    used.position_sigma_m = std::clamp(position_spread_m(poses, recorded, final_frames),
-                                       settings.least_position_sigma_m, settings.position_sigma_m);
-  }
+  Adjustment(poses, final_frames, tracks, camera, settings).run();
 }
 
 }  // namespace milepost

@@ -173,9 +173,10 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     }
   }
   if (status.ok()) {
-    status = build_fused_tiles(*plan, *store, codebook, settings, [&](const BuiltTile& tile) {
-      return map->add_tile(layers::kLandmarks, tile);
-    });
+    const auto known = build_fused_tiles(
+        *plan, *store, codebook, settings,
+        [&](const BuiltTile& tile) { return map->add_tile(layers::kLandmarks, tile); });
+    status = known ? map->set_position_errors(*plan, *known) : Status(known.error());
   }
   if (!status.ok()) return status.error();
   Result<std::vector<MapReport>> maps = map->finish();

@@ -6,6 +6,9 @@
 #include "mapper/network/driven_line.h"
 #include "mapper/pipeline/pass_choice.h"
 #include "mapper/pipeline/pass_comparison.h"
+#include "mapper/pipeline/recordings.h"
+#include "mapper/pipeline/rounded_positions.h"
+#include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
@@ -19,6 +22,18 @@ Result<std::vector<const Drive*>> by_name(const std::vector<Drive>& drives) {
   if (twice == sorted.end()) return sorted;
   return Error{ErrorCode::invalid_input, "drive '" + (*twice)->name + "'",
                "two drives have this name", "give each drive.json a name of its own"};
+}
+
+void add_rounding_findings(const std::vector<const Drive*>& drives,
+                           std::vector<NetworkFinding>& findings) {
+  for (const Drive* drive : drives) {
+    const double step_m = rounding_step_m(*drive);
+    if (step_m == 0) continue;
+    findings.push_back({"drive '" + drive->name + "'",
+                        "its positions are rounded to " + fixed(step_m, 2) +
+                            " m, which the map's position error counts",
+                        "export them with more digits"});
+  }
 }
 
 StoredSegment stored_segment(const NetworkSegment& segment, const RouteLine& line,
@@ -116,15 +131,18 @@ Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettin
                              int jobs) {
   const Result<std::vector<const Drive*>> sorted = by_name(drives);
   if (!sorted) return sorted.error();
+  BuildPlan plan;
+  const std::vector<const Drive*> kept = without_copies(*sorted, plan.findings);
+  add_rounding_findings(kept, plan.findings);
   std::vector<NamedDrivenLines> lines;
-  for (const Drive* drive : *sorted) {
+  for (const Drive* drive : kept) {
     DrivenLineSettings driven;
     driven.min_frame_spacing_m = settings.min_frame_spacing_m;
     Result<NamedDrivenLines> of_drive = driven_lines(*drive, driven);
     if (!of_drive) return of_drive.error();
     lines.push_back(std::move(*of_drive));
   }
-  PassFrames frames(*sorted, lines, jobs);
+  PassFrames frames(kept, lines, jobs);
   PassChoice choice(frames, settings);
   PassComparison comparison(frames, settings);
   NetworkSettings of_network;
@@ -134,13 +152,12 @@ Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettin
       [&](const Pass& a, const Pass& b) { return comparison.show_the_same_road(a, b); });
   if (frames.failure()) return *frames.failure();
 
-  BuildPlan plan;
-  plan.findings = network.findings;
-  plan.drives = stretches_of(*sorted, std::move(lines), network, settings.passes);
+  plan.findings.insert(plan.findings.end(), network.findings.begin(), network.findings.end());
+  plan.drives = stretches_of(kept, std::move(lines), network, settings.passes);
   plan.fused = fused_segments(plan.drives, network);
   for (std::size_t i = 0; i < network.segments.size(); ++i) {
     const NetworkSegment& segment = network.segments[i];
-    plan.segments.push_back(stored_segment(segment, plan.fused[i].line, *sorted));
+    plan.segments.push_back(stored_segment(segment, plan.fused[i].line, kept));
     if (segment.is_beyond_border) plan.beyond_border.insert(segment.id);
   }
   return plan;

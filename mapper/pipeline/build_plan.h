@@ -16,6 +16,7 @@
 
 namespace milepost {
 
+// Each drive that is mapped; a copy of another one is not.
 struct DrivePlan {
   const Drive* drive = nullptr;
   std::vector<StretchPlan> stretches;  // that carry a segment, or landmarks of one

@@ -1,5 +1,7 @@
 #include "mapper/pipeline/divided_map.h"
 
+#include <cmath>
+
 #include "mapper/pipeline/layers.h"
 
 namespace milepost {
@@ -59,6 +61,20 @@ Status DividedMap::add_layer(const std::string& name, const std::string& paramet
   for (Side& side : sides_) {
     const Status added = side.writer.add_layer(name, parameters_json);
     if (!added.ok()) return added;
+  }
+  return ok_status();
+}
+
+Status DividedMap::set_position_errors(const BuildPlan& plan,
+                                       const std::vector<PositionError>& errors) {
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const std::string& segment = plan.fused[i].id;
+    Side& side = side_of(segment);
+    const Status set = side.writer.set_position_error(segment, errors[i]);
+    if (!set.ok()) return set;
+    const double length_m = plan.fused[i].line.length_m();
+    side.report.position_square_m3 += length_m * std::pow(errors[i].sigma_m.value_or(0), 2);
+    if (errors[i].is_assumed) side.report.assumed_m += length_m;
   }
   return ok_status();
 }

@@ -25,6 +25,8 @@ struct MapReport {
   std::size_t tracklets = 0;         // of the layer `tracklets`
   std::uint64_t tracklet_bytes = 0;  // of its tiles
   std::size_t repeated = 0;          // its tracklets that two drives or more saw
+  double position_square_m3 = 0;     // its position errors: squares, times the length of road
+  double assumed_m = 0;              // of road where they are assumed
 };
 
 // Each segment and its tiles go to the map on its side; successors on the other side name the other
@@ -40,6 +42,8 @@ class DividedMap {
   // Errors of all below: those of MapWriter.
   Status set_feature_json(const std::string& json);
   Status add_layer(const std::string& name, const std::string& parameters_json);
+  // REQUIRES: the same plan, an error for each of its segments.
+  Status set_position_errors(const BuildPlan& plan, const std::vector<PositionError>& errors);
   // REQUIRES: the plan has the segment; the layer was added.
   Status add_tile(const std::string& layer, const BuiltTile& tile);
   // One report for each file.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mapper/pipeline/landmark_tile_builder.h"
+#include "mapper/pipeline/recordings.h"
 
 namespace milepost {
 namespace {
@@ -13,7 +14,11 @@ class FusedTiles {
  public:
   FusedTiles(const BuildPlan& plan, LandmarkStore& store, const PcaProjection& projection,
              const BuildSettings& settings)
-      : plan_(plan), store_(store), projection_(projection), settings_(settings) {}
+      : plan_(plan),
+        store_(store),
+        projection_(projection),
+        settings_(settings),
+        recorded_(recorded_errors(plan, settings.fusion.errors)) {}
 
   // The errors of all drives' positions, from the landmarks that they have in common.
   Result<SlowErrors> slow_errors() {
@@ -22,12 +27,8 @@ class FusedTiles {
       const Status added = add_ties(segment, ties);
       if (!added.ok()) return added.error();
     }
-    std::vector<DrivenStretch> stretches;
-    for (std::size_t drive = 0; drive < plan_.drives.size(); ++drive) {
-      for (const StretchPlan& stretch : plan_.drives[drive].stretches)
-        stretches.push_back({drive, stretch.line.length_m()});
-    }
-    return estimate_slow_errors(stretches, ties, settings_.fusion.errors);
+    return estimate_slow_errors(recorded_.drives, recorded_.stretches, ties,
+                                settings_.fusion.errors);
   }
 
   Status build(const SlowErrors& errors, const std::function<Status(const BuiltTile&)>& use) {
@@ -38,7 +39,40 @@ class FusedTiles {
     return ok_status();
   }
 
+  // What is left of the errors, for each segment.
+  std::vector<PositionError> position_errors(const SlowErrors& errors) const {
+    std::vector<PositionError> left;
+    for (const FusedSegment& segment : plan_.fused) left.push_back(error_left(segment, errors));
+    return left;
+  }
+
  private:
+  // The mean over its passes: the vehicle uses the landmarks of all.
+  PositionError error_left(const FusedSegment& segment, const SlowErrors& errors) const {
+    double squares_m2 = 0;
+    double places = 0;
+    double correlations_m = 0;
+    const SlowErrorSettings& settings = settings_.fusion.errors;
+    PositionError left;
+    for (const FusedSegment::PassPlace& pass : segment.passes) {
+      const double length_m = pass.on_stretch.to_m - pass.on_stretch.from_m;
+      const int parts =
+          std::max(1, static_cast<int>(std::lround(length_m / settings.node_spacing_m)));
+      for (int part = 0; part <= parts; ++part, ++places) {
+        const double along_m = pass.on_stretch.from_m + length_m * part / parts;
+        squares_m2 += std::pow(errors.sigma_m(pass.stretch, along_m), 2);
+      }
+      left.is_assumed = left.is_assumed || errors.is_assumed(pass.stretch);
+      const std::size_t drive = recorded_.stretches[pass.stretch].drive;
+      correlations_m += recorded_.drives[drive].correlation_m.value_or(settings.correlation_m);
+    }
+    left.sigma_m = rounded_to_mm(std::sqrt(squares_m2 / places));
+    left.correlation_m = rounded_to_mm(correlations_m / static_cast<double>(segment.passes.size()));
+    return left;
+  }
+
+  static double rounded_to_mm(double metres) { return std::round(metres * 1000) / 1000; }
+
   using ByPass = std::vector<std::vector<PassLandmark>>;
 
   std::uint32_t tiles_of(const FusedSegment& segment) const {
@@ -136,17 +170,19 @@ class FusedTiles {
   LandmarkStore& store_;
   const PcaProjection& projection_;
   const BuildSettings& settings_;
+  RecordedErrors recorded_;
 };
 
 }  // namespace
 
-Status build_fused_tiles(const BuildPlan& plan, LandmarkStore& store,
-                         const PcaProjection& projection, const BuildSettings& settings,
-                         const std::function<Status(const BuiltTile&)>& use) {
+Result<std::vector<PositionError>> build_fused_tiles(
+    const BuildPlan& plan, LandmarkStore& store, const PcaProjection& projection,
+    const BuildSettings& settings, const std::function<Status(const BuiltTile&)>& use) {
   FusedTiles tiles(plan, store, projection, settings);
   const Result<SlowErrors> errors = tiles.slow_errors();
   if (!errors) return errors.error();
-  return tiles.build(*errors, use);
+  if (const Status built = tiles.build(*errors, use); !built.ok()) return built.error();
+  return tiles.position_errors(*errors);
 }
 
 }  // namespace milepost

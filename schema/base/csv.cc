@@ -1,7 +1,9 @@
 #include "schema/base/csv.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 #include "schema/base/file.h"
 
@@ -36,7 +38,8 @@ std::string_view take_line(std::string_view& text) {
 }  // namespace
 
 Result<CsvTable> CsvTable::read(const std::filesystem::path& path,
-                                const std::vector<std::string>& columns) {
+                                const std::vector<std::string>& columns,
+                                const std::vector<std::string>& further) {
   const Result<std::string> content = read_text_file(path);
   if (!content) return content.error();
   std::string_view text = *content;
@@ -55,21 +58,36 @@ Result<CsvTable> CsvTable::read(const std::filesystem::path& path,
           "start the header with " + joined(columns)};
     }
   }
+  std::vector<std::size_t> cell_of(columns.size());  // of each column that is read
+  std::iota(cell_of.begin(), cell_of.end(), 0);
+  for (std::size_t i = columns.size(); i < header.size(); ++i) {
+    const bool is_read = std::ranges::find(further, header[i]) != further.end();
+    if (!is_read || std::ranges::find(table.columns_, header[i]) != table.columns_.end()) continue;
+    table.columns_.push_back(header[i]);
+    cell_of.push_back(i);
+  }
   for (std::size_t line = 2; !text.empty(); ++line) {
     const std::string_view row = take_line(text);
     if (row.empty()) continue;
-    std::vector<std::string> cells = split(row);
-    if (cells.size() < columns.size()) {
-      return Error{ErrorCode::invalid_input, path.string() + ", line " + std::to_string(line),
-                   "the row has " + std::to_string(cells.size()) + " cells, not " +
-                       std::to_string(columns.size()),
-                   "complete or remove the row"};
+    const std::vector<std::string> cells = split(row);
+    const std::size_t needed = cell_of.back() + 1;
+    if (cells.size() < needed) {
+      return Error{
+          ErrorCode::invalid_input, path.string() + ", line " + std::to_string(line),
+          "the row has " + std::to_string(cells.size()) + " cells, not " + std::to_string(needed),
+          "complete or remove the row"};
     }
-    cells.resize(columns.size());
-    table.rows_.push_back(std::move(cells));
+    std::vector<std::string>& kept = table.rows_.emplace_back();
+    for (const std::size_t cell : cell_of) kept.push_back(cells[cell]);
     table.lines_.push_back(line);
   }
   return table;
+}
+
+std::optional<std::size_t> CsvTable::column(const std::string& name) const {
+  const auto found = std::ranges::find(columns_, name);
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
 }
 
 Result<double> CsvTable::number(std::size_t row, std::size_t column) const {

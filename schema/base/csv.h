@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,12 +14,16 @@ namespace milepost {
 // A table in memory. Lines are numbered as in an editor: the header is line 1.
 class CsvTable {
  public:
-  // Reads a file whose header starts with `columns`, in that order; further columns are ignored.
+  // Reads a file whose header starts with `columns`, in that order. Of the columns that follow,
+  // those that `further` names are read, wherever they are; all others are ignored.
   // Errors: not_found, io; invalid_input for another header or a row with too few cells.
   static Result<CsvTable> read(const std::filesystem::path& path,
-                               const std::vector<std::string>& columns);
+                               const std::vector<std::string>& columns,
+                               const std::vector<std::string>& further = {});
 
   std::size_t row_count() const { return rows_.size(); }
+  // The number of a further column; nothing if the table does not have it.
+  std::optional<std::size_t> column(const std::string& name) const;
   const std::string& text(std::size_t row, std::size_t column) const { return rows_[row][column]; }
   // A finite number. Errors: invalid_input that names file, line and column.
   Result<double> number(std::size_t row, std::size_t column) const;

@@ -86,6 +86,8 @@ Status check_position(const GeoPoint& position, const std::string& place) {
   return ok_status();
 }
 
+bool is_position_sigma(double sigma_m) { return sigma_m >= 0 && sigma_m <= 1000; }
+
 // REQUIRES: both rows' times and positions are checked.
 Status check_jump(const std::vector<Frame>& frames, const RowPlaces& rows, std::size_t row) {
   const Frame& from = frames[row - 1];
@@ -130,6 +132,20 @@ Status check_images_folder(const std::string& images, const std::string& where) 
                  "name the folder of the frames relative to the drive, for example frames");
 }
 
+Status check_position_error(const StatedPositionError& error, const std::string& where) {
+  if (error.sigma_m && !is_position_sigma(*error.sigma_m)) {
+    return invalid(where, "position_sigma_m is " + shortest(*error.sigma_m),
+                   "give the standard deviation of the positions on each axis, 0 to 1000 metres");
+  }
+  constexpr double kMaxCorrelationM = 1e5;
+  if (error.correlation_m &&
+      !(*error.correlation_m >= 1 && *error.correlation_m <= kMaxCorrelationM)) {
+    return invalid(where, "position_correlation_m is " + shortest(*error.correlation_m),
+                   "give the length over which errors stay alike, 1 to 100000 metres");
+  }
+  return ok_status();
+}
+
 Status check_frames(const std::vector<Frame>& frames, const RowPlaces& rows) {
   if (frames.empty()) {
     return invalid(rows.file, "there is no frame", "give the table one row for each image");
@@ -140,6 +156,11 @@ Status check_frames(const std::vector<Frame>& frames, const RowPlaces& rows) {
     if (!std::isfinite(frames[row].heading_deg)) {
       return invalid(rows.place(row), "heading_deg is not a finite number",
                      "correct or remove the row");
+    }
+    const std::optional<double>& sigma_m = frames[row].position_sigma_m;
+    if (sigma_m && !is_position_sigma(*sigma_m)) {
+      return invalid(rows.place(row), "position_sigma_m is " + shortest(*sigma_m),
+                     "give the standard deviation of the position on each axis, 0 to 1000 metres");
     }
     Status status = check_position(frames[row].position, rows.place(row));
     if (status && row > 0) status = check_jump(frames, rows, row);

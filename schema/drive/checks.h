@@ -20,6 +20,7 @@ struct RowPlaces {
 // Errors name the file (`where`, or the row's location), what is wrong and a hint.
 // Errors: invalid_input.
 Status check_camera(const Camera& camera, const std::string& where);
+Status check_position_error(const StatedPositionError& error, const std::string& where);
 Status check_images_folder(const std::string& images, const std::string& where);
 // REQUIRES: `rows` has one line per frame (per reading).
 Status check_frames(const std::vector<Frame>& frames, const RowPlaces& rows);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -40,6 +41,11 @@ class KeyReader {
 
   std::string optional_text(const Json& parent, const std::string& key) {
     return parent.is_object() && parent.contains(key) ? text(parent, key) : "";
+  }
+
+  std::optional<double> optional_number(const Json& parent, const std::string& key) {
+    if (!parent.is_object() || !parent.contains(key)) return std::nullopt;
+    return number(parent, "", key);
   }
 
   double number(const Json& parent, const std::string& prefix, const std::string& key) {
@@ -161,10 +167,14 @@ Result<Drive> read_description(const fs::path& folder) {
   drive.captured = keys.optional_text(root, "captured");
   drive.licence = keys.optional_text(root, "licence");
   drive.source = keys.optional_text(root, "source");
+  drive.position_error = {keys.optional_number(root, "position_sigma_m"),
+                          keys.optional_number(root, "position_correlation_m"),
+                          keys.optional_text(root, "position_group")};
   if (!keys.status()) return keys.status().error();
 
   if (Status status = check_camera(drive.camera, file.string()); !status) return status.error();
   Status status = check_images_folder(drive.images, file.string());
+  if (status) status = check_position_error(drive.position_error, file.string());
   if (!status) return status.error();
   return drive;
 }
@@ -200,6 +210,10 @@ Result<std::string> description_text(const Drive& drive) {
   if (!drive.captured.empty()) root["captured"] = drive.captured;
   if (!drive.licence.empty()) root["licence"] = drive.licence;
   if (!drive.source.empty()) root["source"] = drive.source;
+  const StatedPositionError& stated = drive.position_error;
+  if (stated.sigma_m) root["position_sigma_m"] = *stated.sigma_m;
+  if (stated.correlation_m) root["position_correlation_m"] = *stated.correlation_m;
+  if (!stated.group.empty()) root["position_group"] = stated.group;
   try {
     return root.dump(2) + "\n";
   } catch (const Json::exception& error) {

@@ -19,6 +19,14 @@ struct Frame {
   GeoPoint position;       // of the camera
   double heading_deg = 0;  // of the camera, clockwise from north, [0, 360) when read
   std::size_t line = 0;    // of trajectory.csv, for messages; 0 when the frame was not read
+  std::optional<double> position_sigma_m = {};  // stated for this frame, as below
+};
+
+// What a drive states of the errors of its recorded positions.
+struct StatedPositionError {
+  std::optional<double> sigma_m = {};        // standard deviation on each axis, 0 to 1000
+  std::optional<double> correlation_m = {};  // of what changes along the way, 1 to 100000
+  std::string group = {};  // drives that name the same one share a constant error; may be empty
 };
 
 struct GpsFix {
@@ -39,7 +47,8 @@ struct Drive {
   std::string captured;
   std::string licence;
   std::string source;
-  std::vector<Frame> frames;       // timestamps ascend strictly
+  StatedPositionError position_error;
+  std::vector<Frame> frames;       // timestamps ascend strictly; all state a sigma or none
   std::vector<GpsFix> gps;         // empty without gps.csv; timestamps ascend strictly
   std::vector<Odometry> odometry;  // empty without odometry.csv; the same
 

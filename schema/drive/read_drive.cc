@@ -53,12 +53,18 @@ Result<GeoPoint> position_from_local(const LocalFrame& frame, const EnuPoint& en
 Result<std::vector<Frame>> frames_of(const CsvTable& table, const Drive& drive) {
   std::optional<LocalFrame> local;
   if (drive.origin) local.emplace(*drive.origin);
+  const std::optional<std::size_t> sigma_column = table.column(kPositionSigmaColumn);
   std::vector<Frame> frames;
   for (std::size_t row = 0; row < table.row_count(); ++row) {
     const Result<std::vector<double>> values = numbers(table, row, 1, kLocalColumns.size());
     if (!values) return values.error();
     const std::vector<double>& v = *values;
     Frame frame{table.text(row, 0), v[0], {v[1], v[2], v[3]}, v[4], table.line(row)};
+    if (sigma_column) {
+      const Result<double> sigma_m = table.number(row, *sigma_column);
+      if (!sigma_m) return sigma_m.error();
+      frame.position_sigma_m = *sigma_m;
+    }
     if (local) {
       const auto position = position_from_local(*local, {v[1], v[2], v[3]}, table.place(row));
       if (!position) return position.error();
@@ -85,7 +91,8 @@ Status check_images_exist(const Drive& drive, const RowPlaces& rows) {
 Status read_trajectory(Drive& drive) {
   const fs::path file = drive.folder / kTrajectoryFile;
   const bool is_local = drive.position_frame == PositionFrame::local;
-  const auto table = CsvTable::read(file, is_local ? kLocalColumns : kGeographicColumns);
+  const auto table =
+      CsvTable::read(file, is_local ? kLocalColumns : kGeographicColumns, {kPositionSigmaColumn});
   if (!table) return table.error();
   Result<std::vector<Frame>> frames = frames_of(*table, drive);
   if (!frames) return frames.error();

@@ -27,7 +27,10 @@ std::string trajectory_text(const Drive& drive) {
   const bool is_local = drive.position_frame == PositionFrame::local;
   std::optional<LocalFrame> local;
   if (is_local) local.emplace(*drive.origin);
-  CsvText csv(header_of(is_local ? kLocalColumns : kGeographicColumns));
+  std::vector<std::string> columns = is_local ? kLocalColumns : kGeographicColumns;
+  const bool states_sigma = !drive.frames.empty() && drive.frames.front().position_sigma_m;
+  if (states_sigma) columns.push_back(kPositionSigmaColumn);
+  CsvText csv(header_of(columns));
   for (const Frame& frame : drive.frames) {
     csv.cell(frame.filename);
     csv.exact(frame.timestamp_s);
@@ -42,6 +45,7 @@ std::string trajectory_text(const Drive& drive) {
       csv.rounded(frame.position.altitude_m, kMetreDecimals);
     }
     csv.rounded(frame.heading_deg, kAngleDecimals);
+    if (states_sigma) csv.exact(frame.position_sigma_m.value_or(0));
     csv.end_row();
   }
   return csv.text();
@@ -86,6 +90,7 @@ Status check_drive(const Drive& drive, const fs::path& folder) {
   }
   Status status = check_camera(drive.camera, description);
   if (status) status = check_images_folder(drive.images, description);
+  if (status) status = check_position_error(drive.position_error, description);
   if (status) {
     const RowPlaces rows = rows_to_write(folder / kTrajectoryFile, drive.frames.size());
     status = check_frames(drive.frames, rows);

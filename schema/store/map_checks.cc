@@ -55,6 +55,8 @@ Status check_passes(const std::vector<StoredPass>& passes, const std::string& wh
   return ok_status();
 }
 
+}  // namespace
+
 Status check_position_error(const PositionError& error, const std::string& where) {
   const auto is_distance = [](const std::optional<double>& metres) {
     return !metres || (*metres >= 0 && *metres <= kMaxAlongM);
@@ -62,8 +64,6 @@ Status check_position_error(const PositionError& error, const std::string& where
   if (is_distance(error.sigma_m) && is_distance(error.correlation_m)) return ok_status();
   return unstorable(where, "the position error is not a distance (FORMAT.md 2.5)");
 }
-
-}  // namespace
 
 Status check_segment(const StoredSegment& segment, const std::string& where) {
   if (!is_segment_id(segment.id)) {

@@ -19,6 +19,9 @@ inline constexpr std::uint64_t kMaxItems = 1ULL << 53U;  // of a tile; exact in 
 // and the vertex.
 Status check_segment(const StoredSegment& segment, const std::string& where);
 
+// Whether a position error can be stored. Errors: invalid_input after `where`.
+Status check_position_error(const PositionError& error, const std::string& where);
+
 // Whether the bytes of a tile or a cell with `items` items can be stored. `where` names it.
 Status check_frame(std::uint64_t bytes, std::uint64_t items, const std::string& where);
 

@@ -94,6 +94,8 @@ class MapWriter {
   Status set_feature_json(const std::string& json);  // "{}" if not called
   Status add_layer(const std::string& name, const std::string& parameters_json);
   Status add_segment(const StoredSegment& segment);
+  // Replaces what was added with the segment. REQUIRES: it was added.
+  Status set_position_error(const std::string& segment, const PositionError& error);
   // REQUIRES: the segment and the layer were added, (segment, layer, index) is new.
   Status add_tile(const std::string& segment, const std::string& layer, std::uint32_t index,
                   const AlongRange& along, std::uint64_t items, ByteView frame);

@@ -34,7 +34,8 @@ enum Insert {
   kInsertPass,
   kInsertFrame,
   kInsertTile,
-  kInsertCell
+  kInsertCell,
+  kUpdatePositionError
 };
 constexpr const char* kInserts[] = {
     "INSERT INTO meta VALUES (?, ?)",
@@ -46,6 +47,8 @@ constexpr const char* kInserts[] = {
     "INSERT INTO frames VALUES (?, ?)",
     "INSERT INTO tiles VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
     "INSERT INTO cells VALUES (?, ?, ?, ?, ?, ?)",
+    "UPDATE segments SET position_sigma_m = ?, position_correlation_m = ?, assumed = ? WHERE id = "
+    "?",
 };
 Error wrong_call(const fs::path& file, const std::string& what) {
   return {ErrorCode::invalid_input, file.string(), what, ""};
@@ -254,6 +257,18 @@ Status MapWriter::add_segment(const StoredSegment& segment) {
   if (status.ok()) status = impl_->add_successors(segment);
   if (status.ok()) status = impl_->add_passes(segment);
   return impl_->keep(status);
+}
+
+Status MapWriter::set_position_error(const std::string& segment, const PositionError& error) {
+  if (!impl_->failure.ok()) return impl_->failure;
+  const std::string where = impl_->file.string() + ", segment " + segment;
+  if (Status checked = check_position_error(error, where); !checked) return checked;
+  return impl_->keep(impl_->insert(kUpdatePositionError)
+                         .bind(1, error.sigma_m)
+                         .bind(2, error.correlation_m)
+                         .bind(3, std::int64_t{error.is_assumed})
+                         .bind(4, segment)
+                         .run());
 }
 
 Status MapWriter::add_tile(const std::string& segment, const std::string& layer,

@@ -4,6 +4,7 @@ import io
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -46,6 +47,36 @@ class AlteredDrive(unittest.TestCase):
 
     def description(self, drive):
         return json.loads((drive / "drive.json").read_text())
+
+    def test_poses_recorded_worse_change_only_what_they_name(self):
+        write_drive(self.query, frames=200, step_m=1.7)
+        before = rows_of(self.query / "trajectory.csv")
+        changes = {"heading": {"heading_deg": 5}, "altitude": {"up_m": 1}, "position": {"east_m": 0.3, "north_m": 0.3, "up_m": 0.3}}
+        for kind, sigmas in changes.items():
+            after = rows_of(self.altered("--record", kind) / "trajectory.csv")
+            for name in before[0]:
+                if name not in sigmas:
+                    self.assertEqual([row[name] for row in after], [row[name] for row in before], (kind, name))
+                    continue
+                off = np.array([float(a[name]) - float(b[name]) for a, b in zip(after, before)])
+                self.assertAlmostEqual(off.std() / sigmas[name], 1, delta=0.2, msg=(kind, name))
+            shutil.rmtree(self.folder / "out")
+
+    def test_five_decimals_of_a_degree_are_about_a_metre(self):
+        write_drive(self.query, frames=200, step_m=1.7)
+        out = self.altered("--record", "decimals")
+        self.assertEqual(self.description(out)["frame"], "geographic")
+        self.assertNotIn("origin", self.description(out))
+        off_m = [float(row["latitude_deg"]) * 110574 - 1.7 * i for i, row in enumerate(rows_of(out / "trajectory.csv"))]
+        self.assertLess(np.abs(off_m).max(), 0.56)
+        self.assertAlmostEqual(np.std(off_m), 1.1 / math.sqrt(12), delta=0.05)
+
+    def test_every_fifth_frame(self):
+        write_drive(self.query, frames=23)
+        out = self.altered("--record", "fifth")
+        self.assertEqual([row["filename"] for row in rows_of(out / "trajectory.csv")],
+                         ["0.jpg", "5.jpg", "10.jpg", "15.jpg", "20.jpg"])
+        self.assertEqual(len(list((out / "frames").iterdir())), 5)
 
     def test_calibration_only_the_camera_is_another(self):
         write_drive(self.query)

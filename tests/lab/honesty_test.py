@@ -30,7 +30,7 @@ def drive(error_m, sigma_m=0.1, tracking=True, on_map=True, has_begun=True, step
         return np.broadcast_to(np.asarray(values, kind), len(error_m)).copy()
     return Drive("a", "milepost", of_frames(tracking, bool), of_frames(error_m), of_frames(sigma_m),
                  of_frames(error_m if along_m is None else along_m), of_frames(sigma_m), 0.0, of_frames(on_map, bool),
-                 of_frames(has_begun, bool), of_frames(step_m), of_frames(taken_m))
+                 of_frames(has_begun, bool), of_frames(step_m), of_frames(taken_m), of_frames(sigma_m) / 2)
 
 
 def cells(situation, *drives):
@@ -52,6 +52,7 @@ class Counting(unittest.TestCase):
         self.assertEqual(found["tracked"], 2)
         self.assertAlmostEqual(found["within 1 %"], 200 / 3)
         self.assertEqual(found["within 2 %"], 100)
+        self.assertAlmostEqual(found["map: within 2 %"], 200 / 3)  # half the sigma: of 1, 3, 1.6
 
     def test_on_a_strange_road_every_claim_is_wrong(self):
         strange = Situation("s", "", "strange")
@@ -148,10 +149,10 @@ class Reading(unittest.TestCase):
             write_drive(folder / "query", frames=4, step_m=10)
             write_drive(folder / "taken", frames=4, step_m=12)
             (folder / "result").mkdir()
-            header = "filename,status,latitude_deg,longitude_deg,sigma_m,lateral_sigma_m,error_m\n"
+            header = "filename,status,latitude_deg,longitude_deg,sigma_m,lateral_sigma_m,error_m,sigma_map_m\n"
             (folder / "result/fixes-milepost.csv").write_text(
-                header + f"0.jpg,initializing,,,,,\n1.jpg,tracking,{10 / 110574:.10f},{3 / 111320:.10f},0.3,0.4,0.01\n"
-                f"2.jpg,predicted,{24 / 110574:.10f},0,0.2,,4\n3.jpg,off-map,,,,,\n")
+                header + f"0.jpg,initializing,,,,,,\n1.jpg,tracking,{10 / 110574:.10f},{3 / 111320:.10f},0.3,0.4,0.01,0.1\n"
+                f"2.jpg,predicted,{24 / 110574:.10f},0,0.2,,4,0.2\n3.jpg,off-map,,,,,,\n")
             run = types.SimpleNamespace(pair=PAIRS[0], query_drive=folder / "query", taken_drive=folder / "taken", map_file=folder / "drive.map",
                                         evaluation=types.SimpleNamespace(kind="evaluate", result=folder / "result"))
             with mock.patch.object(honesty, "read_roads", lambda file: {"road": self.northwards()}):
@@ -160,6 +161,7 @@ class Reading(unittest.TestCase):
         np.testing.assert_allclose(read.error_m, [math.nan, 3, 4, math.nan], atol=0.01)
         np.testing.assert_allclose(read.taken_error_m, [math.nan, math.hypot(3, 2), 0, math.nan], atol=0.02)
         np.testing.assert_allclose(read.sigma_m, [math.nan, 0.5, 0.2, math.nan])
+        np.testing.assert_allclose(read.sigma_map_m, [math.nan, 0.3, 0.2, math.nan])  # 0.09 less 0.08, 0.16 less 0.08
         np.testing.assert_equal(read.on_map, [True, True, True, False])
         np.testing.assert_equal(read.has_begun, [False, True, True, True])
         np.testing.assert_equal(read.tracking, [False, True, False, False])

@@ -19,7 +19,7 @@ from made_up import fixes, regression_rows
 
 HEADER = ("timestamp_s,filename,status,segment,along_m,sigma_m,latitude_deg,longitude_deg,matches,latency_ms,"
           "truth_along_m,error_m,lateral_m,heading_deg,lateral_sigma_m,truth_lateral_m,lateral_error_m,"
-          "heading_error_deg\n")
+          "heading_error_deg,sigma_map_m\n")
 DEGREES_PER_M = 1 / 111319.49  # of longitude on the equator
 
 
@@ -47,8 +47,8 @@ class FromFiles(unittest.TestCase):
             "filename,timestamp_s,east_m,north_m,up_m,heading_deg\n"
             "a.jpg,0,4,1.5,0,90\nb.jpg,1,8,-2,0,90\nc.jpg,2,12,0,0,90\n")
         (self.folder / "fixes-m.csv").write_text(
-            HEADER + "0,a.jpg,tracking,road,4.5,0.2,0,0,9,1,4.0,0.5,-1.4,90.5,0.1,-1.5,0.1,0.5\n"
-            "1,b.jpg,tracking,road,7.7,0.2,0,0,9,2,8.0,-0.3,,,,2,,\n2,c.jpg,lost,,,,,,0,3,12.0,,,,,0,,\n")
+            HEADER + "0,a.jpg,tracking,road,4.5,0.2,0,0,9,1,4.0,0.5,-1.4,90.5,0.1,-1.5,0.1,0.5,0.19\n"
+            "1,b.jpg,tracking,road,7.7,0.2,0,0,9,2,8.0,-0.3,,,,2,,,0.2\n2,c.jpg,lost,,,,,,0,3,12.0,,,,,0,,,\n")
         (self.folder / "summary.json").write_text(json.dumps([{"method": "m", "map_kb_per_m": 2.5}]))
         stage = types.SimpleNamespace(result=self.folder)
         self.run_ = types.SimpleNamespace(pair=types.SimpleNamespace(name="p"), map_stage=stage, evaluation=stage,
@@ -59,7 +59,8 @@ class FromFiles(unittest.TestCase):
         np.testing.assert_allclose(read.error_m, [0.5, -0.3, math.nan])
         np.testing.assert_allclose(read.lateral_m, [1.5, -2, math.nan], atol=1e-3)
         np.testing.assert_allclose(read.lateral_error_m, [0.1, math.nan, math.nan])
-        np.testing.assert_allclose(read.lateral_sigma_m, [0.1, math.nan, math.nan])
+        np.testing.assert_allclose(read.sigma_m, [0.19, 0.2, math.nan])
+        np.testing.assert_allclose(read.lateral_sigma_m, [math.sqrt(0.01 - 0.0039), math.nan, math.nan])
         np.testing.assert_allclose(read.heading_error_deg, [0.5, math.nan, math.nan])
         np.testing.assert_allclose(read.latency_ms, [1, 2, 3])
         self.assertEqual(list(read.curved), [False] * 3)

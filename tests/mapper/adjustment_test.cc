@@ -84,9 +84,26 @@ TEST(AdjustPoses, TrustsPositionsAsFarAsTheImagesDo) {
     return errors_of(poses, street.poses).position_m;
   };
   AdjustmentSettings fixed;
-  fixed.least_position_sigma_m = fixed.position_sigma_m;
+  fixed.least_position_sigma_m = fixed.greatest_position_sigma_m = fixed.position_sigma_m;
   EXPECT_LT(error_m(0, {}), 0.6 * error_m(0, fixed));
   EXPECT_LT(error_m(0.03, {}), 1.05 * error_m(0.03, fixed));
+  EXPECT_LT(error_m(0.3, {}), 0.5 * error_m(0.3, fixed));
+}
+
+// One kind of noise at a time, of which the images know better than the record.
+TEST(AdjustPoses, ImagesOutweighARecordThatTheyContradict) {
+  const auto errors = [](double altitude_noise_m, double heading_noise_deg) {
+    MadeUpStreet street({.frames = 60,
+                         .points = 450,
+                         .heading_noise_deg = heading_noise_deg,
+                         .altitude_noise_m = altitude_noise_m,
+                         .pixel_noise_px = 0.5});
+    std::vector<CameraPose> poses = street.recorded;
+    adjust_poses(poses, 0, street.sights_of_all(), kStreetPinhole, {});
+    return errors_of(poses, street.poses);
+  };
+  EXPECT_LT(errors(1, 0.3).position_m, 0.25);
+  EXPECT_LT(errors(0, 5).heading_deg, 0.1);
 }
 
 TEST(AdjustPoses, FinalPosesDoNotMove) {

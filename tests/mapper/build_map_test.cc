@@ -205,6 +205,29 @@ TEST(BuildMap, FusedDrivesMeetHalfWay) {
   EXPECT_EQ(fused.segment.passes.size(), 2U);
 }
 
+TEST(BuildMap, ADriveThatIsGivenTwiceTellsNothingNew) {
+  Drive again = street();
+  again.name = "again";
+  const FusedMap once = fused_map({street()}, 2, PassPolicy::fuse);
+  const FusedMap twice = fused_map({street(), again}, 2, PassPolicy::fuse);
+  EXPECT_EQ(twice.report.findings.size(), 1U);
+  EXPECT_EQ(twice.segment.passes.size(), 1U);
+  EXPECT_EQ(twice.segment.position_error, once.segment.position_error);
+  EXPECT_EQ(twice.segment.position_error, (PositionError{0.18, 200, true}));
+}
+
+TEST(BuildMap, WhatDrivesStateAndHowTheyDifferIsKept) {
+  Drive stating = street();
+  stating.position_error = {0.04, 80, ""};
+  EXPECT_EQ(fused_map({stating}, 2, PassPolicy::fuse).segment.position_error,
+            (PositionError{0.04, 80, false}));
+  const PositionError found =
+      fused_map({street(), moved_street(0.3)}, 2, PassPolicy::fuse).segment.position_error;
+  EXPECT_FALSE(found.is_assumed);
+  EXPECT_GT(*found.sigma_m, 0.05);
+  EXPECT_LT(*found.sigma_m, 0.16);
+}
+
 TEST(BuildMap, FusedTheOrderOfDrivesAndTheNumberOfJobsPlayNoPart) {
   const FusedMap one = fused_map({street(), moved_street(0.3)}, 1, PassPolicy::fuse);
   const FusedMap other = fused_map({moved_street(0.3), street()}, 3, PassPolicy::fuse);

@@ -54,7 +54,8 @@ class ExportCommandTest : public ::testing::Test {
                                    30,
                                    {{49.123456789, 8.4, 1, 0}, {49.2, 8.4, 2, 9}, {50, 8, 3, 30}},
                                    {{"b"}, {"c", "village"}},
-                                   {{"monday", 5, 35}}})
+                                   {{"monday", 5, 35}},
+                                   {0.18, 200, true}})
                     .ok());
     for (const WallTile& tile : tiles_of(kWalls)) add_walls(*writer, tile.cell, encode_walls(tile));
     EXPECT_TRUE(writer->finish().ok());
@@ -130,12 +131,15 @@ TEST_F(ExportCommandTest, WritesTheRoadNetwork) {
                   {"length_m", 30.0},
                   {"successors",
                    {{{"map", "town"}, {"segment", "b"}}, {{"map", "village"}, {"segment", "c"}}}},
-                  {"passes", {{{"drive", "monday"}, {"from_m", 5.0}, {"to_m", 35.0}}}}}));
+                  {"passes", {{{"drive", "monday"}, {"from_m", 5.0}, {"to_m", 35.0}}}},
+                  {"position_sigma_m", 0.18},
+                  {"assumed", true}}));
   EXPECT_EQ(
       features[0].at("geometry"),
       json({{"type", "LineString"},
             {"coordinates", {{8.4, 49.123456789, 1.0}, {8.4, 49.2, 2.0}, {8.0, 50.0, 3.0}}}}));
   EXPECT_EQ(features[1].at("properties").at("successors"), json::array());
+  EXPECT_FALSE(features[1].at("properties").contains("position_sigma_m"));  // it is not known
 }
 
 TEST_F(ExportCommandTest, WritesTheSameBytesAgain) {

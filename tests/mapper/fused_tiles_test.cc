@@ -24,6 +24,7 @@ constexpr std::size_t kFrames = 96;  // 187 m: the last tile's stretch is shorte
 struct MadeLayer {
   RouteLine line;
   std::vector<BuiltTile> tiles;
+  std::vector<PositionError> known;  // of each segment
 };
 
 PcaProjection projection() {
@@ -57,7 +58,9 @@ MadeLayer layer_of(double size_target_kb_per_m, const std::vector<double>& cuts_
     from_m = cut_m;
   }
   add_segment("s", {from_m, line.length_m()});
-  plan.drives.push_back({nullptr, {stretch}});
+  Drive drive;
+  drive.name = "street";
+  plan.drives.push_back({&drive, {stretch}});
   BuildSettings settings;
   settings.tile_length_m = kTileLengthM;
   settings.landmarks.size_target_kb_per_m = size_target_kb_per_m;
@@ -78,14 +81,14 @@ MadeLayer layer_of(double size_target_kb_per_m, const std::vector<double>& cuts_
     survey.add_tracks(ended[i]);
     EXPECT_TRUE(survey.store(i == kFrames).ok());
   }
-  MadeLayer made{std::move(line), {}};
+  MadeLayer made{std::move(line), {}, {}};
   const PcaProjection compact = projection();
-  const Status built =
-      build_fused_tiles(plan, store, compact, settings, [&](const BuiltTile& tile) {
-        made.tiles.push_back(tile);
-        return ok_status();
-      });
+  const auto built = build_fused_tiles(plan, store, compact, settings, [&](const BuiltTile& tile) {
+    made.tiles.push_back(tile);
+    return ok_status();
+  });
   EXPECT_TRUE(built.ok());
+  if (built) made.known = *built;
   return made;
 }
 
@@ -132,6 +135,13 @@ TEST(FusedTiles, EachTileComesOnceWithARangeThatHoldsItsLandmarks) {
       EXPECT_LE(landmark.along.from_m, read->origin_m + kTileLengthM + 0.1);
     }
   }
+}
+
+TEST(FusedTiles, WhereALoneDriveSaysNothingTheUsualErrorIsAssumed) {
+  const MadeLayer made = layer_of(0.2, {60, 130});
+  ASSERT_EQ(made.known.size(), 3U);
+  for (const PositionError& error : made.known)
+    EXPECT_EQ(error, (PositionError{0.18, 200, true}));  // of bias and drift
 }
 
 TEST(FusedTiles, ATileThatHoldsNothingIsNotStored) {

@@ -43,6 +43,7 @@ MadeUpStreet::MadeUpStreet(const StreetPlan& plan) : plan_(plan), random_(plan.s
     CameraPose record = road[i];
     record.heading_rad += noise(plan.heading_noise_deg) * kRadPerDeg;
     for (int k = 0; k < 3; ++k) record.enu_m[k] += noise(plan.position_noise_m);
+    if (plan.altitude_noise_m > 0) record.enu_m.z() += noise(plan.altitude_noise_m);
     recorded.push_back(record);
   }
   std::uniform_real_distribution<double> share;

@@ -28,6 +28,7 @@ struct StreetPlan {
   double mounting_deg = 0;       // of the camera's yaw against the recorded headings
   double heading_noise_deg = 0;  // of a recorded heading; standard deviations, like all below
   double position_noise_m = 0;   // of a recorded position
+  double altitude_noise_m = 0;   // of a recorded altitude
   double tilt_deg = 0;           // of pitch and of roll
   double pixel_noise_px = 0;
   double nearest_m = 5;    // depth from which a point is seen ...

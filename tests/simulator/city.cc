@@ -37,11 +37,17 @@ std::size_t City::junction(const std::string& name) const {
   return static_cast<std::size_t>(found - junctions.begin());
 }
 
-City make_city(std::uint64_t seed, CitySize size) {
-  City city = size == CitySize::full ? lay_out_city(seed) : lay_out_small_city(seed);
-  city.drives = size == CitySize::full ? map_drives(city) : small_map_drives(city);
-  std::vector<CityDrive> tours = tours_over(city);
-  if (size == CitySize::full) tours.push_back(strange_tour(city));
+City make_city(std::uint64_t seed, CityPlan plan) {
+  City city = plan == CityPlan::small ? lay_out_small_city(seed) : lay_out_city(seed);
+  std::vector<CityDrive> tours;
+  if (plan == CityPlan::fleet) {
+    city.drives = fleet_drives(city);
+    tours = {fleet_tour(city)};
+  } else {
+    city.drives = plan == CityPlan::full ? map_drives(city) : small_map_drives(city);
+    tours = tours_over(city);
+    if (plan == CityPlan::full) tours.push_back(strange_tour(city));
+  }
   for (std::size_t i = 0; i < tours.size(); ++i) {
     tours[i].name = "city-" + std::to_string(i + 1) + "-tour";
     city.drives.push_back(tours[i]);

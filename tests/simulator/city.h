@@ -60,9 +60,13 @@ struct City {
   std::size_t junction(const std::string& name) const;  // REQUIRES: there is one
 };
 
-enum class CitySize { small, full };
+enum class CityPlan {
+  small,
+  full,
+  fleet,  // the full city's roads, and drives that all go one way
+};
 
 // The same plan for every seed; the exact positions and the height of the hill differ.
-City make_city(std::uint64_t seed, CitySize size);
+City make_city(std::uint64_t seed, CityPlan plan);
 
 }  // namespace milepost::simulator

@@ -53,6 +53,8 @@ constexpr MapPlan kSmallMapPlans[] = {
      1},
 };
 
+constexpr const char* kFleetTurns = "west-cross west-street.2+ north-gate exit ring";
+
 CityDrive drive_of(const City& city, const MapPlan& plan, const std::string& name) {
   CityDrive drive;
   drive.name = name;
@@ -111,6 +113,22 @@ std::vector<CityDrive> map_drives(const City& city) { return drives_of(city, kMa
 
 std::vector<CityDrive> small_map_drives(const City& city) {
   return drives_of(city, kSmallMapPlans);
+}
+
+std::vector<CityDrive> fleet_drives(const City& city) {
+  constexpr int kDrives = 6;
+  std::vector<CityDrive> drives;
+  for (int i = 0; i < kDrives; ++i) {
+    const MapPlan plan = {"the avenue, as all others", kFleetTurns, 1 + i % 2};
+    drives.push_back(drive_of(city, plan, "city-" + std::to_string(i + 1) + "-map"));
+  }
+  return drives;
+}
+
+CityDrive fleet_tour(const City& city) {
+  CityDrive tour = drive_of(city, {"the avenue, as the mapping drives", kFleetTurns, 1}, "");
+  tour.is_tour = true;
+  return tour;
 }
 
 CityDrive strange_tour(const City& city) {

@@ -26,7 +26,7 @@ namespace {
 using milepost::testing::TempFolder;
 
 const City& recorded_city() {
-  static const City city = make_city(1, CitySize::small);
+  static const City city = make_city(1, CityPlan::small);
   return city;
 }
 

@@ -22,11 +22,11 @@ const City& full_city(std::uint64_t seed = 1) {
   static std::map<std::uint64_t, City> cities;
   const auto found = cities.find(seed);
   if (found != cities.end()) return found->second;
-  return cities.emplace(seed, make_city(seed, CitySize::full)).first->second;
+  return cities.emplace(seed, make_city(seed, CityPlan::full)).first->second;
 }
 
 const City& small_city() {
-  static const City city = make_city(1, CitySize::small);
+  static const City city = make_city(1, CityPlan::small);
   return city;
 }
 
@@ -91,6 +91,20 @@ TEST(City, TheSmallOneHasTwoJunctionsAndThreeDrives) {
   double roads_m = 0;
   for (const Road& road : city.network.roads) roads_m += road.path.length_m();
   EXPECT_NEAR(roads_m, 400, 60);
+}
+
+TEST(City, AFleetDrivesOneWayInEitherLane) {
+  const City city = make_city(1, CityPlan::fleet);
+  ASSERT_EQ(city.drives.size(), 7U);
+  ASSERT_EQ(tours_in(city).size(), 1U);
+  std::set<int> lanes;
+  for (const CityDrive& drive : city.drives) {
+    ASSERT_EQ(drive.passes.size(), city.drives.front().passes.size());
+    for (std::size_t i = 0; i < drive.passes.size(); ++i)
+      EXPECT_EQ(drive.passes[i].edge, city.drives.front().passes[i].edge);
+    lanes.insert(drive.passes[1].lane);
+  }
+  EXPECT_EQ(lanes, (std::set<int>{1, 2}));
 }
 
 TEST(City, AnotherSeedGivesAnotherCityOfTheSamePlan) {

@@ -62,6 +62,7 @@ struct Options {
   PositionErrors errors;
   bool city = false;
   bool small = false;
+  bool fleet = false;
   std::string ortho;
   std::string walls;
   int threads = 0;
@@ -73,6 +74,8 @@ void add_options(CLI::App& app, Options& options) {
       ->option_text("DIR");
   app.add_flag("--city", options.city, "A city and its drives and tours instead of the town");
   app.add_flag("--small", options.small, "With --city: 400 m of road and two junctions, quickly");
+  app.add_flag("--fleet", options.fleet,
+               "With --city: six drives and a tour on one road, in other lanes, light and traffic");
   app.add_option("--route", options.routes, "Only the drives of these routes")
       ->option_text("NAME...");
   app.add_option("--drive", options.drives, "Only these drives")->option_text("NAME...");
@@ -184,7 +187,9 @@ struct World {
       runs = make_runs(network, options.seed, options.length_m);
       return;
     }
-    city = make_city(options.seed, options.small ? CitySize::small : CitySize::full);
+    city = make_city(options.seed, options.small   ? CityPlan::small
+                                   : options.fleet ? CityPlan::fleet
+                                                   : CityPlan::full);
     network = city->network;
     runs = city_runs(*city, options.length_m);
   }
@@ -284,6 +289,8 @@ int main(int argc, char** argv) {
     const bool writes = !options.out.empty() || !options.ortho.empty() || !options.walls.empty();
     if (!options.list && !writes) throw CLI::RequiredError("--out, --ortho or --walls");
     if (options.small && !options.city) throw CLI::RequiresError("--small", "--city");
+    if (options.fleet && !options.city) throw CLI::RequiresError("--fleet", "--city");
+    if (options.fleet && options.small) throw CLI::ExcludesError("--fleet", "--small");
   });
   if (const auto exit_code = parse_command_line(app, argc, argv)) return *exit_code;
   return run(options);

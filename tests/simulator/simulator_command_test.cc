@@ -89,6 +89,7 @@ TEST(SimulatorCommand, Teaches) {
                              "--heading-noise-deg",
                              "--city",
                              "--small",
+                             "--fleet",
                              "city-1-tour",
                              "city-graph.json",
                              "--map-spacing-m",
@@ -154,6 +155,10 @@ TEST(SimulatorCommand, RefusesTownsDrivesInACityAndASmallTown) {
   const Outcome small = run_simulator("--out /nowhere --small");
   EXPECT_EQ(small.exit_code, 2);
   EXPECT_THAT(small.output, ::testing::MatchesRegex("[^\n]*--small[^\n]*--city[^\n]*\n"));
+  const Outcome fleet = run_simulator("--out /nowhere --fleet");
+  EXPECT_EQ(fleet.exit_code, 2);
+  EXPECT_THAT(fleet.output, ::testing::MatchesRegex("[^\n]*--fleet[^\n]*--city[^\n]*\n"));
+  EXPECT_EQ(run_simulator("--out /nowhere --city --small --fleet").exit_code, 2);
 }
 
 TEST(SimulatorCommand, ReplacesNoFileOfAnotherKind) {

@@ -18,7 +18,8 @@ SUMMARY_KEYS = ["method", "mean_error_m", "std_error_m", "max_error_m", "p50_err
                 "localized_frames", "within_2_sigma", "map_kb_per_m", "latency_ms_p50", "latency_ms_p99",
                 "mean_lateral_error_m", "p95_lateral_error_m", "max_lateral_error_m", "lateral_within_2_sigma",
                 "mean_heading_error_deg", "p95_heading_error_deg", "max_heading_error_deg",
-                "mean_distance_m", "p95_distance_m", "max_distance_m", "wrong_segment_frames"]
+                "mean_distance_m", "p95_distance_m", "max_distance_m", "wrong_segment_frames",
+                "within_2_sigma_map"]
 # Every method, and a bound on its mean error in metres: those that interpolate nothing are worse.
 # Bounds of the mean error on the street: about 1.6 times what is measured.
 METHODS = {"wisurf": 2.5, "scale-only": 0.85, "tracklet-matching": 0.35, "tracklet-regression": 0.35,
@@ -94,7 +95,10 @@ class MapFile:
                               "tiles WHERE segment = ? ORDER BY layer, number", name):
             tile["index"] = tile.pop("number")
             tiles.setdefault(tile.pop("layer"), []).append(tile)
-        return {"segment": name, "length_m": length_m, "line": [list(vertex) for vertex in line], "tiles": tiles,
+        sigma_m, correlation_m, assumed = self.store.execute(
+            "SELECT position_sigma_m, position_correlation_m, assumed FROM segments WHERE id = ?", (name,)).fetchone()
+        error = {"position_sigma_m": sigma_m, "position_correlation_m": correlation_m, **({"assumed": True} if assumed else {})}
+        return {**error, "segment": name, "length_m": length_m, "line": [list(vertex) for vertex in line], "tiles": tiles,
                 "successors": [], "passes": self.rows("drive from_m to_m", "passes WHERE segment = ?", name)}
 
 
@@ -118,7 +122,7 @@ class Line(CommandTest):
 
     def expect_fixes(self):
         rows = rows_of(self.fixes)
-        self.assertEqual(list(rows[0]), FIX_COLUMNS + POSE_COLUMNS)
+        self.assertEqual(list(rows[0]), FIX_COLUMNS + POSE_COLUMNS + ["sigma_map_m"])
         self.assertEqual([row["filename"] for row in rows],
                          [row["filename"] for row in rows_of(self.query / "trajectory.csv")])
         self.assertLessEqual({row["status"] for row in rows}, STATUSES)
@@ -256,11 +260,11 @@ class Line(CommandTest):
             rows = rows_of(self.fixes)
             self.assertEqual({row["status"] for row in rows[12:18]}, {"predicted"})
             self.assertEqual(rows[18]["status"], "tracking")
-            sigmas_m.append(float(rows[17]["sigma_m"]))
+            sigmas_m.append(float(rows[17]["sigma_map_m"]))
         self.assertLess(sigmas_m[0], 0.5 * sigmas_m[1])
 
     def check_against_rows(self, entry, rows):
-        self.assertEqual(list(rows[0]), FIX_COLUMNS + ["truth_along_m", "error_m"] + POSE_COLUMNS + TRUTH_COLUMNS)
+        self.assertEqual(list(rows[0]), FIX_COLUMNS + ["truth_along_m", "error_m"] + POSE_COLUMNS + TRUTH_COLUMNS + ["sigma_map_m"])
         errors = []
         for row in rows:
             if not row["error_m"]:

@@ -1,13 +1,14 @@
 """milepost-mapper build: the same bytes for any number of threads, and never half a map."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
 import unittest
 
 import commands
-from commands import CommandTest, MAPPER, STREET, run
+from commands import CLIENT, CommandTest, MAPPER, STREET, rows_of, run
 
 
 class Mapper(CommandTest):
@@ -59,6 +60,44 @@ class Mapper(CommandTest):
         self.expect_refused(run(MAPPER, "export", "--map", self.map, "--layer", "walls", "--geojson", roads), 1,
                             "no layer 'walls'", "segments, tracklets")
         self.assertEqual(json.loads(roads.read_text()), collection)
+
+    def copied(self, name, **stated):
+        """The street's drive under another name, with further keys in drive.json."""
+        drive = self.folder / name
+        shutil.copytree(STREET / "street-map", drive)
+        description = json.loads((drive / "drive.json").read_text())
+        (drive / "drive.json").write_text(json.dumps({**description, "name": name, **stated}))
+        return drive
+
+    def test_a_recording_that_is_given_twice_is_told_and_counts_once(self):
+        once, twice = self.folder / "once.map", self.folder / "twice.map"
+        self.expect_done(self.build(STREET / "street-map", once))
+        result = self.build(STREET / "street-map", twice, "--drive", self.copied("again"))
+        self.expect_done(result)
+        self.assertIn("warning: drive 'street-map': its frames are those of drive 'again'", result.stderr)
+        roads = self.folder / "roads.geojson"
+        positions = []
+        for file in (once, twice):
+            self.expect_done(run(MAPPER, "export", "--map", file, "--layer", "segments", "--geojson", roads))
+            feature, = json.loads(roads.read_text())["features"]
+            self.assertEqual(len(feature["properties"]["passes"]), 1)
+            positions.append((feature["properties"]["position_sigma_m"], feature["properties"]["assumed"]))
+        self.assertEqual(positions, [(0.18, True)] * 2)
+
+    def test_what_a_drive_states_of_its_positions_is_in_each_fix(self):
+        fixes = self.folder / "fixes.csv"
+        for stated_m, in_plan_m in (({}, 0.18), ({"position_sigma_m": 0.05, "position_correlation_m": 80}, 0.05)):
+            name = f"stating-{len(stated_m)}"
+            result = self.build(self.copied(name, **stated_m), self.map)
+            self.expect_done(result)
+            self.assertIn(f"positions to {in_plan_m:.3f} m" + ("" if stated_m else " (assumed)"), result.stdout)
+            self.expect_done(run(CLIENT, "localize", "--map", self.map, "--drive", STREET / "street-query", "--out", fixes))
+            for row in rows_of(fixes):
+                sigma_m, sigma_map_m = float(row["sigma_m"]), float(row["sigma_map_m"])
+                self.assertAlmostEqual(sigma_m ** 2 - sigma_map_m ** 2, in_plan_m ** 2, delta=2e-4 * sigma_m + 1e-6)
+
+    def test_a_statement_that_is_none_is_refused(self):
+        self.expect_refused(self.build(self.copied("bad", position_sigma_m=-1), self.map), 1, "drive.json", "position_sigma_m is -1")
 
     def start_build(self):
         return subprocess.Popen([MAPPER, "build", "--drive", str(STREET / "street-map"), "--map", str(self.map),

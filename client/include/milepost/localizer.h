@@ -45,9 +45,12 @@ struct Fix {
   // Position of the camera in Frenet coordinates: arc length from the segment's start, in [0,
   // length of the segment], and lateral offset from its line, positive to the right.
   std::optional<double> along_m;
-  double sigma_m = 0;  // one standard deviation of along_m; valid only with it
+  // One standard deviation of along_m, valid only with it: in the world, and against the map, as if
+  // its own positions were exact. The difference is an error that fixes close together share.
+  double sigma_m = 0;
+  double sigma_map_m = 0;
   std::optional<double> lateral_m;
-  std::optional<double> lateral_sigma_m;  // one standard deviation
+  std::optional<double> lateral_sigma_m;  // one standard deviation, in the world
   std::optional<Pose> pose;               // of the vehicle's reference point
   int matches = 0;                        // number of inlier landmarks of the measurement
 };

@@ -61,6 +61,7 @@ FrameFix fix_of(const Pose& pose, const std::string& filename) {
   }
   frame.fix.along_m = pose.along_m;
   frame.fix.sigma_m = 0.2;
+  frame.fix.sigma_map_m = 0.05;
   frame.fix.lateral_m = pose.lateral_m;
   frame.fix.lateral_sigma_m = pose.lateral_sigma_m;
   frame.fix.heading_deg = pose.heading_deg;
@@ -160,18 +161,24 @@ TEST(Evaluation, SummaryAppendsItsNewFiguresToTheOldOnes) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : list.at(0).items()) keys.push_back(key);
   EXPECT_THAT(
-      keys,
-      ElementsAre("method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m",
-                  "p95_error_m", "frames", "localized_frames", "within_2_sigma", "map_kb_per_m",
-                  "latency_ms_p50", "latency_ms_p99", "mean_lateral_error_m", "p95_lateral_error_m",
-                  "max_lateral_error_m", "lateral_within_2_sigma", "mean_heading_error_deg",
-                  "p95_heading_error_deg", "max_heading_error_deg", "mean_distance_m",
-                  "p95_distance_m", "max_distance_m", "wrong_segment_frames"));
+      keys, ElementsAre("method", "mean_error_m", "std_error_m", "max_error_m", "p50_error_m",
+                        "p95_error_m", "frames", "localized_frames", "within_2_sigma",
+                        "map_kb_per_m", "latency_ms_p50", "latency_ms_p99", "mean_lateral_error_m",
+                        "p95_lateral_error_m", "max_lateral_error_m", "lateral_within_2_sigma",
+                        "mean_heading_error_deg", "p95_heading_error_deg", "max_heading_error_deg",
+                        "mean_distance_m", "p95_distance_m", "max_distance_m",
+                        "wrong_segment_frames", "within_2_sigma_map"));
   EXPECT_NEAR(list.at(0).at("mean_lateral_error_m"), 0.25, kMm);
   EXPECT_NEAR(list.at(0).at("max_heading_error_deg"), 1, 1e-9);
   const std::string text = summary_text({evaluation});
   EXPECT_THAT(lines_of(text).at(0), HasSubstr("lateral m   p95 m heading deg"));
   EXPECT_THAT(lines_of(text).at(1), HasSubstr("0.250   0.250        1.00"));
+}
+
+TEST(Evaluation, AShareIsWithinTheSigmaInTheWorldAnotherWithinThatAgainstTheMap) {
+  const Summary summary = evaluated({{10.125}, {20}}).summary;
+  EXPECT_DOUBLE_EQ(summary.within_2_sigma, 1);
+  EXPECT_DOUBLE_EQ(summary.within_2_sigma_map, 0.5);
 }
 
 TEST(Evaluation, FixesHaveTheirNewColumnsAfterTheOldOnes) {
@@ -182,19 +189,21 @@ TEST(Evaluation, FixesHaveTheirNewColumnsAfterTheOldOnes) {
       "timestamp_s,filename,status,segment,along_m,sigma_m,latitude_deg,longitude_deg,matches,"
       "latency_ms,";
   const std::vector<std::string> localized = lines_of(fixes_csv(fixes));
-  EXPECT_EQ(localized.at(0), columns + "lateral_m,heading_deg,lateral_sigma_m");
+  EXPECT_EQ(localized.at(0), columns + "lateral_m,heading_deg,lateral_sigma_m,sigma_map_m");
   EXPECT_EQ(localized.at(1),
-            "0.0000,a.jpg,tracking,road,10.1250,0.2000,,,0,0.00,2.2500,0.0000,0.2000");
-  EXPECT_EQ(localized.at(2), "0.0000,b.jpg,tracking,road,20.0000,0.2000,,,0,0.00,,,");
+            "0.0000,a.jpg,tracking,road,10.1250,0.2000,,,0,0.00,2.2500,0.0000,0.2000,0.0500");
+  EXPECT_EQ(localized.at(2), "0.0000,b.jpg,tracking,road,20.0000,0.2000,,,0,0.00,,,,0.0500");
   const std::vector<std::string> lines = lines_of(evaluated_fixes_csv(evaluation.fixes));
   EXPECT_EQ(lines.at(0),
             columns +
                 "truth_along_m,error_m,lateral_m,heading_deg,lateral_sigma_m,"
-                "truth_lateral_m,lateral_error_m,heading_error_deg,truth_segment,distance_m");
-  EXPECT_EQ(lines.at(1), localized.at(1).substr(0, localized.at(1).find(",2.2500")) +
-                             ",10.0000,0.1250,2.2500,0.0000,0.2000,2.0000,0.2500,1.0000,road,");
+                "truth_lateral_m,lateral_error_m,heading_error_deg,truth_segment,distance_m,"
+                "sigma_map_m");
+  EXPECT_EQ(lines.at(1),
+            localized.at(1).substr(0, localized.at(1).find(",2.2500")) +
+                ",10.0000,0.1250,2.2500,0.0000,0.2000,2.0000,0.2500,1.0000,road,,0.0500");
   EXPECT_THAT(lines.at(2), StartsWith("0.0000,b.jpg,"));
-  EXPECT_THAT(lines.at(2), ::testing::EndsWith(",20.0000,0.0000,,,,2.0000,,,road,"));
+  EXPECT_THAT(lines.at(2), ::testing::EndsWith(",20.0000,0.0000,,,,2.0000,,,road,,0.0500"));
 }
 
 }  // namespace

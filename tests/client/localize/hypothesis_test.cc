@@ -7,9 +7,12 @@
 
 #include "client/localize/relocalization_check.h"
 #include "tests/client/fetch/held_segment.h"
+#include "tests/client/localize/standing_tracker.h"
 
 namespace milepost {
 namespace {
+
+using testing::Standing;
 
 constexpr double kMetresPerDegree = 111229;  // of latitude, at 49 degrees
 
@@ -18,27 +21,6 @@ RouteLine northwards() {
   for (int i = 0; i <= 10; ++i) vertices.push_back({49.0 + 10 * i / kMetresPerDegree, 8.4, 110});
   return *RouteLine::from_vertices(vertices);
 }
-
-// Stays at its initial position.
-class Standing : public SegmentTracker {
- public:
-  Standing(std::shared_ptr<const SegmentLayer> layer, double along_m,
-           std::optional<FullPose> full = std::nullopt)
-      : layer_(std::move(layer)), along_m_(along_m), full_(std::move(full)) {}
-  const std::shared_ptr<const SegmentLayer>& layer() const override { return layer_; }
-  TrackedPose pose_at(double) const override { return pose(); }
-  AlongRange needed(double) const override { return {along_m_, along_m_}; }
-  TrackingResult track(SharedFrame&) override { return {}; }
-  TrackedPose pose() const override { return {along_m_, 0.1, full_}; }
-  std::optional<LearnedCamera> learned_camera() const override {
-    return LearnedCamera{{0.05, 0, 0}, Eigen::Matrix3d::Identity()};
-  }
-
- private:
-  std::shared_ptr<const SegmentLayer> layer_;
-  double along_m_;
-  std::optional<FullPose> full_;
-};
 
 class Hypotheses : public ::testing::Test {
  protected:
@@ -50,13 +32,13 @@ class Hypotheses : public ::testing::Test {
                            .measured = true,
                            .log_bayes_factor = log_bayes_factor,
                            .matches = matches},
-                          std::make_unique<Standing>(layer_, along_m)};
+                          std::make_unique<Standing>(layer_, TrackedPose{along_m, 0.1})};
     hypothesis.odds.add(odds);
     return hypothesis;
   }
 
   RelocalizationCandidate candidate(double along_m, int matches) const {
-    return {std::make_unique<Standing>(layer_, along_m), matches, 5};
+    return {std::make_unique<Standing>(layer_, TrackedPose{along_m, 0.1}), matches, 5};
   }
 
   static double along_m(const Hypothesis& hypothesis) { return hypothesis.tracker->pose().along_m; }
@@ -131,10 +113,11 @@ TEST_F(Hypotheses, WhereTheMotionLeadsIsLikely) {
     camera.heading_deg = heading_deg;
     for (const std::size_t axis : {0, 1, 2}) camera.covariance.at(7 * axis) = sigma_m * sigma_m;
     camera.covariance[21] = 1;  // square degrees
-    return Hypothesis{{.odds = LogOdds(LogOddsSettings()),
-                       .receiver = GnssLikelihood(GnssLikelihoodSettings()),
-                       .timestamp_s = 10},
-                      std::make_unique<Standing>(layer, 50, FullPose{0, 0.1, camera})};
+    return Hypothesis{
+        {.odds = LogOdds(LogOddsSettings()),
+         .receiver = GnssLikelihood(GnssLikelihoodSettings()),
+         .timestamp_s = 10},
+        std::make_unique<Standing>(layer, TrackedPose{50, 0.1, FullPose{0, 0.1, camera}})};
   };
   const Hypothesis left = at(layer_, 0, 359.8, 2);
   const double there = log_bayes_factor_after(left, at(other, 1, 0.2, 0.1));

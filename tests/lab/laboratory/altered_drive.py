@@ -5,6 +5,8 @@
 --yaw-deg D        ... and as if it were not yawed clockwise by D degrees, which it seems to be
 --part LOW HIGH    of the frames only the part between these shares, 0 to 1
 --spoil KIND       other images: blur, soft, noise, half (the resolution), dark
+--record KIND      poses recorded worse: heading (noise of 5 degrees), altitude (1 m), position (0.3 m on each axis),
+                   decimals (five of a degree), fifth (only every fifth frame)
 --leap-m M         after a third of the frames so many metres are left out and the times closed up, so that whoever
                    follows is pushed away by as much; the receiver is told at the beginning only
 --onto DRIVE       positions and receiver lie on the road of another drive, which the images do not show
@@ -26,6 +28,7 @@ METRES_OF_A_DEGREE = 111_200  # of latitude
 FRAMES_AFTER_LEAP = 6         # at least
 LEAP_MPS = 50                 # at most, beyond the vehicle's own speed: faster drives are refused
 JPEG_QUALITY = 90
+LOCAL = ("east_m", "north_m", "up_m")
 
 
 @dataclasses.dataclass
@@ -168,6 +171,63 @@ def laid_onto(drive, other):
     return dataclasses.replace(drive, description={**description, **frame}, trajectory=trajectory, receiver=receiver)
 
 
+def with_noise(drive, sigmas):
+    """Independent from frame to frame, on these columns."""
+    import numpy as np
+    random = np.random.default_rng(7)
+    trajectory = [{**row, **{name: f"{float(row[name]) + random.normal(0, sigma):.6f}" for name, sigma in sigmas.items()}}
+                  for row in drive.trajectory]
+    return dataclasses.replace(drive, trajectory=trajectory)
+
+
+def geographic(drive):
+    """The same drive with latitudes and longitudes."""
+    if drive.description["frame"] == "geographic":
+        return drive
+    from road import LocalFrame, geodetic  # beside this script
+    origin = drive.description["origin"]
+    frame = LocalFrame(origin["latitude_deg"], origin["longitude_deg"], origin["altitude_m"])
+    trajectory = []
+    for row in drive.trajectory:
+        latitude_deg, longitude_deg, altitude_m = geodetic(frame.to_earth([float(row[name]) for name in LOCAL]))
+        trajectory.append({"filename": row["filename"], "timestamp_s": row["timestamp_s"],
+                           "latitude_deg": f"{latitude_deg:.11f}", "longitude_deg": f"{longitude_deg:.11f}",
+                           "altitude_m": f"{altitude_m:.6f}", "heading_deg": row["heading_deg"]})
+    description = {key: value for key, value in drive.description.items() if key != "origin"}
+    return dataclasses.replace(drive, description={**description, "frame": "geographic"}, trajectory=trajectory)
+
+
+def rounded(drive):
+    drive = geographic(drive)
+    return dataclasses.replace(drive, trajectory=[
+        {**row, **{name: f"{float(row[name]):.5f}" for name in ("latitude_deg", "longitude_deg")}} for row in drive.trajectory])
+
+
+def with_position_noise(drive):
+    if drive.description["frame"] == "local":
+        return with_noise(drive, dict.fromkeys(LOCAL, 0.3))
+    latitude_deg, _ = positions_deg(drive)[0]
+    degree_m = METRES_OF_A_DEGREE * math.cos(math.radians(latitude_deg))
+    noisy_drive = with_noise(drive, {"altitude_m": 0.3})
+    import numpy as np
+    random = np.random.default_rng(8)
+    return dataclasses.replace(noisy_drive, trajectory=[
+        {**row, "latitude_deg": f"{float(row['latitude_deg']) + random.normal(0, 0.3 / METRES_OF_A_DEGREE):.11f}",
+         "longitude_deg": f"{float(row['longitude_deg']) + random.normal(0, 0.3 / degree_m):.11f}"}
+        for row in noisy_drive.trajectory])
+
+
+def altitude_of(drive):
+    return "up_m" if drive.description["frame"] == "local" else "altitude_m"
+
+
+RECORDS = {"heading": lambda drive: with_noise(drive, {"heading_deg": 5}),
+           "altitude": lambda drive: with_noise(drive, {altitude_of(drive): 1}),
+           "position": with_position_noise,
+           "decimals": rounded,
+           "fifth": lambda drive: dataclasses.replace(drive, trajectory=drive.trajectory[::5])}
+
+
 def motion_blurred(image):
     """As of a camera that moved to the side, 4 px."""
     import numpy as np
@@ -221,12 +281,15 @@ def main():
     parser.add_argument("--yaw-deg", type=float, default=0)
     parser.add_argument("--part", type=float, nargs=2)
     parser.add_argument("--spoil", choices=SPOILS)
+    parser.add_argument("--record", choices=RECORDS)
     parser.add_argument("--leap-m", type=float)
     parser.add_argument("--onto", type=pathlib.Path)
     options = parser.parse_args()
     drive = miscalibrated(read_drive(options.drive), options.focal_factor, options.yaw_deg)
     if options.part:
         drive = part_of(drive, *options.part)
+    if options.record:
+        drive = RECORDS[options.record](drive)
     if options.leap_m:
         drive = leaping(drive, options.leap_m)
     if options.onto:

@@ -33,6 +33,7 @@ class NoisyDrives {
         errors.emplace_back(bias + drift);
         drift = decay * drift + normal3(noise.drift_m * std::sqrt(1 - decay * decay));
       }
+      known.push_back({.bias = drive});
       stretches.push_back({drive, kRoadM});
       rolls_rad.push_back(0);
     }
@@ -59,7 +60,7 @@ class NoisyDrives {
     for (Eigen::Vector3d& error : errors_[drive]) error += error_m;
   }
 
-  SlowErrors estimated() const { return estimate_slow_errors(stretches, ties, {}); }
+  SlowErrors estimated() const { return estimate_slow_errors(known, stretches, ties, {}); }
 
   // Root mean squares over drives, places and axes of plan.
   double rms_left_m(const SlowErrors& estimate, std::size_t drives) const {
@@ -99,6 +100,7 @@ class NoisyDrives {
     return within / count;
   }
 
+  std::vector<DriveErrors> known;
   std::vector<DrivenStretch> stretches;
   std::vector<Tie> ties;
   std::vector<double> rolls_rad;  // of each drive
@@ -167,9 +169,10 @@ TEST(SlowErrors, ADriveElsewhereChangesNoDigit) {
   drives.tie_all();
   std::vector<Tie> apart = drives.ties;
   std::erase_if(apart, [](const Tie& tie) { return tie.a.stretch < 2 && tie.b.stretch >= 2; });
-  const SlowErrors with = estimate_slow_errors(drives.stretches, apart, {});
+  const SlowErrors with = estimate_slow_errors(drives.known, drives.stretches, apart, {});
   std::erase_if(apart, [](const Tie& tie) { return tie.b.stretch >= 2; });
-  const SlowErrors without = estimate_slow_errors({{0, kRoadM}, {1, kRoadM}}, apart, {});
+  const SlowErrors without =
+      estimate_slow_errors({{.bias = 0}, {.bias = 1}}, {{0, kRoadM}, {1, kRoadM}}, apart, {});
   for (double along_m = 0; along_m < kRoadM; along_m += 7)
     EXPECT_EQ(with.error(1, along_m).enu_m, without.error(1, along_m).enu_m) << along_m;
 }
@@ -209,6 +212,96 @@ TEST(SlowErrors, RollsAreToldApartAndMoveNoPosition) {
   const double between = estimate.error(0, 300).roll_rad - estimate.error(1, 300).roll_rad;
   EXPECT_NEAR(between, 0.03, 0.001);
   EXPECT_NEAR(rolled.rms_left_m(estimate, 3), level.rms_left_m(level.estimated(), 3), 0.005);
+}
+
+TEST(SlowErrors, IsAssumedWhereNeitherADriveNorATieTellsIt) {
+  NoisyDrives drives(4, {}, 1);
+  drives.tie_all();
+  std::erase_if(drives.ties, [](const Tie& tie) { return tie.b.stretch >= 2; });
+  drives.known[3].sigma_m = 0.05;
+  const SlowErrors estimate = drives.estimated();
+  EXPECT_FALSE(estimate.is_assumed(0));
+  EXPECT_FALSE(estimate.is_assumed(1));
+  EXPECT_TRUE(estimate.is_assumed(2));
+  EXPECT_FALSE(estimate.is_assumed(3));
+  EXPECT_NEAR(estimate.sigma_m(3, 300), 0.05, 1e-6);
+}
+
+TEST(SlowErrors, DrivesOfOneGroupAreNoBetterThanTheirCommonBias) {
+  NoisyDrives drives(4, {0, 0.15}, 1);
+  drives.tie_all();
+  const double apart_m = drives.estimated().sigma_m(0, 300);
+  for (DriveErrors& drive : drives.known) drive.bias = 2;
+  const SlowErrors grouped = drives.estimated();
+  EXPECT_TRUE(grouped.is_assumed(0));
+  EXPECT_GT(grouped.sigma_m(0, 300), 0.1);
+  EXPECT_LT(grouped.sigma_m(0, 300), std::hypot(0.1, 0.15) - 0.01);  // their drifts average out
+  EXPECT_LT(apart_m, grouped.sigma_m(0, 300) - 0.01);
+}
+
+TEST(SlowErrors, AStatedSigmaIsAWeight) {
+  NoisyDrives drives(2, {0.15, 0}, 3);
+  drives.tie_all();
+  drives.known[0].sigma_m = 0.02;
+  drives.known[1].sigma_m = 0.4;
+  const SlowErrors estimate = drives.estimated();
+  EXPECT_LT(estimate.error(0, 300).enu_m.head<2>().norm(),
+            0.1 * estimate.error(1, 300).enu_m.head<2>().norm());
+  EXPECT_NEAR(estimate.sigma_m(0, 300), 0.02, 0.005);
+  EXPECT_NEAR(estimate.sigma_m(1, 300), 0.02, 0.01);  // it is tied to the exact one
+}
+
+TEST(SlowErrors, AStatementThatTheDrivesContradictIsNotBelieved) {
+  NoisyDrives drives(4, {0.2, 0.2}, 2);
+  drives.tie_all();
+  const double unstated_m = drives.estimated().sigma_m(1, 300);
+  for (DriveErrors& drive : drives.known) drive.sigma_m = 0.01;
+  EXPECT_GT(drives.estimated().sigma_m(1, 300), 0.4 * unstated_m);
+}
+
+TEST(SlowErrors, WhereFramesStateMoreTheErrorIsLarger) {
+  NoisyDrives drives(1, {}, 1);
+  drives.known[0].sigma_m = 0.1;
+  std::vector<double>& factors = drives.stretches[0].sigma_factors;
+  factors.assign(node_count(kRoadM, {}), 1);
+  for (std::size_t k = factors.size() / 2; k < factors.size(); ++k) factors[k] = 3;
+  const SlowErrors estimate = drives.estimated();
+  EXPECT_NEAR(estimate.sigma_m(0, 100), 0.1, 1e-6);
+  EXPECT_NEAR(estimate.sigma_m(0, 500), 0.3, 1e-6);
+}
+
+TEST(SlowErrors, FadeOutOverTheStatedLength) {
+  const auto sigma_beyond_m = [](std::optional<double> correlation_m) {
+    NoisyDrives drives(2, {0, 0.3}, 4);
+    drives.tie_all(0, 200);
+    for (DriveErrors& drive : drives.known) {
+      drive.sigma_m = 0.3;
+      drive.correlation_m = correlation_m;
+    }
+    const SlowErrors estimate = drives.estimated();
+    return estimate.sigma_m(1, 320) / estimate.sigma_m(1, 100);
+  };
+  EXPECT_GT(sigma_beyond_m(20), 1.1 * sigma_beyond_m(2000));
+}
+
+// Two cameras of one vehicle: what they both saw tells nothing of where it was.
+TEST(SlowErrors, ASecondCameraNarrowsNoSigma) {
+  NoisyDrives drives(3, {}, 1);
+  drives.tie_all();
+  std::vector<Tie> first_two = drives.ties;
+  std::erase_if(first_two, [](const Tie& tie) { return tie.b.stretch == 2; });
+  const SlowErrors alone =
+      estimate_slow_errors({{.bias = 0}, {.bias = 1}}, {{0, kRoadM}, {1, kRoadM}}, first_two, {});
+  drives.known[2].bias = 1;
+  drives.stretches[2].same_way = {1, {0, kRoadM}, {0, kRoadM}};
+  std::erase_if(drives.ties,
+                [](const Tie& tie) { return tie.a.stretch == 0 && tie.b.stretch == 2; });
+  const SlowErrors both = drives.estimated();
+  for (double along_m = 0; along_m <= kRoadM; along_m += 50) {
+    EXPECT_NEAR(both.sigma_m(1, along_m), alone.sigma_m(1, along_m), 1e-9);
+    EXPECT_NEAR(both.sigma_m(2, along_m), both.sigma_m(1, along_m), 1e-9);
+    EXPECT_LT((both.error(2, along_m).enu_m - both.error(1, along_m).enu_m).norm(), 1e-9);
+  }
 }
 
 }  // namespace

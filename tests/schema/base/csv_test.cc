@@ -38,6 +38,20 @@ TEST_F(CsvTest, ReadsRowsAndIgnoresFurtherColumns) {
   EXPECT_DOUBLE_EQ(*table->number(1, 1), -2e-3);
 }
 
+TEST_F(CsvTest, ReadsTheFurtherColumnsThatAreAskedFor) {
+  std::ofstream(path_) << "name,x_m,note,sigma_m,sigma_m\na,1.5,z,0.2,9\nb,2,z\n";
+  EXPECT_FALSE(CsvTable::read(path_, {"name", "x_m"}, {"sigma_m"}).ok());  // the last row is short
+  std::ofstream(path_) << "name,x_m,note,sigma_m,sigma_m\na,1.5,z,0.2,9\nb,2,z,x,9\n";
+  const auto table = CsvTable::read(path_, {"name", "x_m"}, {"sigma_m", "absent"});
+  ASSERT_TRUE(table.ok()) << table.error().line();
+  EXPECT_EQ(table->column("absent"), std::nullopt);
+  EXPECT_EQ(table->column("note"), std::nullopt);
+  ASSERT_TRUE(table->column("sigma_m"));
+  EXPECT_DOUBLE_EQ(*table->number(0, *table->column("sigma_m")), 0.2);
+  EXPECT_THAT(table->number(1, *table->column("sigma_m")).error().line(),
+              HasSubstr("line 3: sigma_m is 'x', not a finite number"));
+}
+
 TEST_F(CsvTest, TakesEveryLineEndAndAByteOrderMark) {
   const auto table = read("\xef\xbb\xbfname,x_m\r\na,1\r\n\r\nb,2");
   ASSERT_TRUE(table.ok()) << table.error().line();

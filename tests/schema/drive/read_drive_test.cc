@@ -90,6 +90,36 @@ TEST(ReadDrive, ReadsReceiverAndOdometer) {
   EXPECT_EQ(drive->odometry[1].yaw_rate_dps, -2);
 }
 
+TEST(ReadDrive, ReadsWhatIsStatedOfItsPositions) {
+  const DriveFolder folder;
+  EXPECT_EQ(read_drive(folder.path())->position_error.sigma_m, std::nullopt);
+  EXPECT_EQ(read_drive(folder.path())->frames[0].position_sigma_m, std::nullopt);
+  folder.replace("drive.json", R"("name")",
+                 R"("position_sigma_m": 0.05, "position_correlation_m": 80,
+                    "position_group": "receiver 7", "name")");
+  folder.write("trajectory.csv",
+               "filename,timestamp_s,east_m,north_m,up_m,heading_deg,lane,position_sigma_m\n"
+               "a.png,1,0,0,0,0,left,0.02\n"
+               "b.png,2,0,2,0,0,left,0\n");
+  const Result<Drive> drive = read_drive(folder.path());
+  ASSERT_TRUE(drive.ok()) << drive.error().line();
+  EXPECT_EQ(drive->position_error.sigma_m, 0.05);
+  EXPECT_EQ(drive->position_error.correlation_m, 80);
+  EXPECT_EQ(drive->position_error.group, "receiver 7");
+  EXPECT_EQ(drive->frames[0].position_sigma_m, 0.02);
+  EXPECT_EQ(drive->frames[1].position_sigma_m, 0);
+}
+
+TEST(ReadDriveRefuses, ASigmaOfAFrameThatIsNone) {
+  const DriveFolder folder;
+  const std::string columns =
+      "filename,timestamp_s,east_m,north_m,up_m,heading_deg,position_sigma_m\n";
+  folder.write("trajectory.csv", columns + "a.png,1,0,0,0,0,0.02\nb.png,2,0,2,0,0,-0.1\n");
+  EXPECT_THAT(refusal(folder), HasSubstr("line 3: position_sigma_m is -0.1; "));
+  folder.write("trajectory.csv", columns + "a.png,1,0,0,0,0,\nb.png,2,0,2,0,0,1\n");
+  EXPECT_THAT(refusal(folder), HasSubstr("line 2: position_sigma_m is '', not a finite number; "));
+}
+
 TEST(ReadDrive, CountsLinesAsAnEditorDoes) {
   const DriveFolder folder;
   folder.replace_line("trajectory.csv", 3, "\nb.png,10.0,0,2,1.5,0");
@@ -168,6 +198,11 @@ const BadDescription kBadDescriptions[] = {
     {R"("frames")", R"("/frames")", "images is '/frames', not a folder inside the drive; "},
     {R"("frames")", R"("")", "images is '', not a folder inside the drive; "},
     {R"("free")", "[]", "licence is not a string; "},
+    {R"("name")", R"("position_sigma_m": "x", "name")", "position_sigma_m is not a number; "},
+    {R"("name")", R"("position_sigma_m": -1, "name")", "position_sigma_m is -1; "},
+    {R"("name")", R"("position_sigma_m": 1001, "name")", "position_sigma_m is 1001; "},
+    {R"("name")", R"("position_correlation_m": 0, "name")", "position_correlation_m is 0; "},
+    {R"("name")", R"("position_group": 7, "name")", "position_group is not a string; "},
 };
 
 INSTANTIATE_TEST_SUITE_P(ReadDrive, BadDescriptions, ::testing::ValuesIn(kBadDescriptions));

@@ -20,8 +20,11 @@ Drive geographic_drive() {
   drive.camera = {16, 12, 20.123456789, 21.5, 8, 6};
   drive.images = "frames";
   drive.source = "Straße";
+  drive.position_error = {0.05, 80, "receiver 7"};
   drive.frames = {{"a.png", 0.1 + 0.2, {49.0123456789, 8.4123456789, 114.123456}, 12.3456},
                   {"b.png", 0.5, {49.0123556789, 8.4123456789, 114.2}, 0}};
+  drive.frames[0].position_sigma_m = 0.02;
+  drive.frames[1].position_sigma_m = 0.1;
   drive.gps = {{0.25, {49.01234, 8.41234, 0}, 4.7}};
   drive.odometry = {{0.2, 9.87654, -1.25}, {0.4, 9.9, 0}};
   return drive;
@@ -47,11 +50,15 @@ void expect_same(const Drive& read, const Drive& written) {
   EXPECT_EQ(read.images, written.images);
   EXPECT_EQ(read.captured, written.captured);
   EXPECT_EQ(read.source, written.source);
+  EXPECT_EQ(read.position_error.sigma_m, written.position_error.sigma_m);
+  EXPECT_EQ(read.position_error.correlation_m, written.position_error.correlation_m);
+  EXPECT_EQ(read.position_error.group, written.position_error.group);
   ASSERT_EQ(read.frames.size(), written.frames.size());
   for (std::size_t i = 0; i < read.frames.size(); ++i) {
     EXPECT_EQ(read.frames[i].filename, written.frames[i].filename);
     EXPECT_EQ(read.frames[i].timestamp_s, written.frames[i].timestamp_s);
     EXPECT_NEAR(read.frames[i].heading_deg, written.frames[i].heading_deg, 1e-6);
+    EXPECT_EQ(read.frames[i].position_sigma_m, written.frames[i].position_sigma_m);
     expect_same_place(read.frames[i].position, written.frames[i].position);
   }
   ASSERT_EQ(read.gps.size(), written.gps.size());
@@ -136,6 +143,10 @@ TEST(WriteDriveRefuses, WhatTheReaderWouldRefuse) {
               HasSubstr("trajectory.csv, line 2: heading_deg is not a finite number"));
   EXPECT_THAT(refusal([](Drive& d) { d.frames[0].timestamp_s = kNan; }),
               HasSubstr("trajectory.csv, line 2: timestamp_s is not a finite number"));
+  EXPECT_THAT(refusal([](Drive& d) { d.position_error.sigma_m = kNan; }),
+              HasSubstr("drive.json: position_sigma_m is nan"));
+  EXPECT_THAT(refusal([](Drive& d) { d.frames[1].position_sigma_m = kNan; }),
+              HasSubstr("trajectory.csv, line 3: position_sigma_m is nan"));
   EXPECT_THAT(refusal([](Drive& d) { d.odometry[1].speed_mps = kNan; }),
               HasSubstr("odometry.csv, line 3: speed_mps or yaw_rate_dps is not a finite number"));
   EXPECT_THAT(refusal([](Drive& d) { d.gps[0].sigma_m = 0; }),

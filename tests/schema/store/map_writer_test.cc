@@ -114,6 +114,19 @@ TEST_F(MapWriterTest, TheOrderOfTheCallsIsNotInTheBuild) {
   EXPECT_NE(write(1, 2), write(1, 3));
 }
 
+TEST_F(MapWriterTest, APositionErrorCanFollowItsSegment) {
+  const PositionError error{0.15, 120, true};
+  const auto write = [&](const PositionError& at_first, const PositionError& then) {
+    MapWriter map = writer();
+    EXPECT_TRUE(map.add_segment({"r", 20, testing::kShortLine, {}}).ok());
+    EXPECT_TRUE(map.add_segment({"s", 20, testing::kShortLine, {}, {}, at_first}).ok());
+    EXPECT_TRUE(map.set_position_error("s", then).ok());
+    return *map.finish();
+  };
+  EXPECT_EQ(write({}, error), write(error, error));
+  EXPECT_NE(write(error, {}), write(error, error));
+}
+
 TEST_F(MapWriterTest, ReplacesAMapWhileAReaderGoesOnReadingItsBuild) {
   const std::string old_build = testing::write_example(file_);
   const auto reader = MapReader::open(file_);
@@ -207,6 +220,8 @@ TEST_F(MapWriterTest, RefusesWhatCannotBeStoredAndGoesOn) {
   for (const PositionError& error :
        {PositionError{-0.1}, PositionError{nan}, PositionError{0.1, nan}}) {
     expect_refused(map.add_segment({"c", 1, testing::kShortLine, {}, {}, error}),
+                   ", segment c: the position error is not a distance (FORMAT.md 2.5)");
+    expect_refused(map.set_position_error("c", error),
                    ", segment c: the position error is not a distance (FORMAT.md 2.5)");
   }
   for (const double length_m : {nan, -1.0, 0.0, 1e8 + 1}) {
