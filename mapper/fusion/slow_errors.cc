@@ -259,6 +259,7 @@ class Component {
     for (auto& [number, bias] : biases_)
       bias.variance = drawn_to(common_bias, kBiasPrior, of_bias[next++], settings_.bias_sigma_m);
     std::vector<Squares> all_drifts;
+    all_drifts.reserve(of_drift.size());
     for (const auto& [drive, squares] : of_drift) all_drifts.push_back(squares);
     const ByKind common_drift = common(all_drifts, settings_.drift_sigma_m);
     for (const auto& [drive, squares] : of_drift)

@@ -1,6 +1,7 @@
 #include "mapper/pipeline/recordings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -66,6 +67,7 @@ bool is_one_way(const Drive& a, const std::vector<std::size_t>& of_a, const Driv
   Eigen::Vector3d usual;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
+    values.reserve(offsets.size());
     for (const Eigen::Vector3d& offset : offsets) values.push_back(offset[axis]);
     std::ranges::nth_element(values,
                              values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
@@ -81,12 +83,15 @@ bool is_one_way(const Drive& a, const std::vector<std::size_t>& of_a, const Driv
 // Some images of the pairs, byte by byte.
 bool have_the_same_images(const Drive& a, const std::vector<std::size_t>& of_a, const Drive& b,
                           const std::vector<std::size_t>& of_b, const FramePairs& pairs) {
-  for (const std::size_t at : {std::size_t{0}, pairs.size() / 2, pairs.size() - 1}) {
-    const auto image_a = read_text_file(a.frame_path(a.frames[of_a[pairs[at].first]]));
-    const auto image_b = read_text_file(b.frame_path(b.frames[of_b[pairs[at].second]]));
-    if (!image_a || !image_b || *image_a != *image_b) return false;
-  }
-  return true;
+  const auto bytes = [](const Drive& drive, std::size_t frame) {
+    return read_text_file(drive.frame_path(drive.frames[frame]));
+  };
+  const std::array<std::size_t, 3> some = {0, pairs.size() / 2, pairs.size() - 1};
+  return std::ranges::all_of(some, [&](std::size_t at) {
+    const auto image_a = bytes(a, of_a[pairs[at].first]);
+    const auto image_b = bytes(b, of_b[pairs[at].second]);
+    return image_a && image_b && *image_a == *image_b;
+  });
 }
 
 // Whether `a` has the frames of `b`.

@@ -37,6 +37,9 @@ enum Insert {
   kInsertCell,
   kUpdatePositionError
 };
+constexpr const char* kSetPositionError =
+    "UPDATE segments SET position_sigma_m = ?, position_correlation_m = ?, assumed = ? "
+    "WHERE id = ?";
 constexpr const char* kInserts[] = {
     "INSERT INTO meta VALUES (?, ?)",
     "INSERT INTO layers VALUES (?, ?)",
@@ -47,8 +50,7 @@ constexpr const char* kInserts[] = {
     "INSERT INTO frames VALUES (?, ?)",
     "INSERT INTO tiles VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
     "INSERT INTO cells VALUES (?, ?, ?, ?, ?, ?)",
-    "UPDATE segments SET position_sigma_m = ?, position_correlation_m = ?, assumed = ? WHERE id = "
-    "?",
+    kSetPositionError,
 };
 Error wrong_call(const fs::path& file, const std::string& what) {
   return {ErrorCode::invalid_input, file.string(), what, ""};
