@@ -20,10 +20,11 @@ recorded positions are ignored.
 Columns: timestamp_s, filename, status, segment, along_m, sigma_m, latitude_deg, longitude_deg,
 matches, latency_ms, lateral_m (from the segment's line, positive to the right), heading_deg (of the
 camera, clockwise from north), lateral_sigma_m and sigma_map_m; the three before the last are empty
-where the method does not estimate them. The sigmas hold in the world; sigma_map_m is that of along_m
-against the map, as if the map's own positions were exact. Latitude and longitude are the camera's where lateral_m is given, otherwise those
-of along_m on the segment's line; off the map they are where the motion carries the camera, with the
-deviation in plan as sigma_m, while that is below 30 m.
+where the method does not estimate them. The sigmas hold in the world; sigma_map_m is that of
+along_m against the map, as if the map's own positions were exact. Latitude and longitude are the
+camera's where lateral_m is given, otherwise those of along_m on the segment's line; off the map they
+are where the motion carries the camera, with the deviation in plan as sigma_m, while that is below
+30 m.
 Example: milepost-client localize --server http://localhost:8080 --cache cache \
            --drive drives/tuesday --out fixes.csv)";
 
