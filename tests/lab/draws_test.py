@@ -65,6 +65,7 @@ class Drawing(unittest.TestCase):
             row["heading_deg"] = "180"
         part = draws.part_near(there_and_back, query, near_m=8, margin_m=20)
         self.assertEqual([float(row["north_m"]) for row in part], [*np.arange(-20, 121, 10.0)])
+        self.assertEqual(draws.part_near(there_and_back[20:], query, near_m=8, margin_m=20), [])
         self.assertEqual(draws.part_near(rows([50] * 20, np.arange(20) * 5.0), query, 8, 20), [])
 
     def test_the_best_is_the_mean_error_in_the_querys_directions(self):
