@@ -11,24 +11,12 @@
 #include <Eigen/Dense>
 
 #include "mapper/fusion/selected_inverse.h"
+#include "mapper/fusion/variance_components.h"
 
 namespace milepost {
 namespace {
 
 constexpr int kAxes = kErrorAxes;
-
-// Axes that share their variances: those of the position, and roll.
-struct Kind {
-  int first = 0;
-  int axes = 0;
-};
-constexpr std::array<Kind, 2> kKinds = {{{0, kRollAxis}, {kRollAxis, 1}}};
-using ByKind = Eigen::Vector2d;
-
-// The diagonal of a matrix of all axes.
-ErrorVector on_axes(const ByKind& of_kind) {
-  return {of_kind[0], of_kind[0], of_kind[0], of_kind[1]};
-}
 
 // The product of an axis' node and its factor: part of a linear function.
 struct Term {
@@ -85,8 +73,12 @@ class Component {
       for (std::size_t i = 0; i < ties_.size(); ++i) weights[i] = weight_of(ties_[i], scale);
       update_variances();
     }
-    const bool tells_biases = std::ranges::any_of(
-        ties_, [&](const Tie& tie) { return bias_of(tie.a.stretch) != bias_of(tie.b.stretch); });
+    const std::size_t told = differences_of_biases();
+    const bool tells_biases = told > 0;
+    if (tells_biases) {
+      widen_biases(told);
+      solve_once(weights);
+    }
     for (const auto& [stretch, chain] : chains_) {
       found[stretch].is_assumed = !tells_biases && is_assumed(drives_[chain.drive]);
       for (Eigen::Index k = 0; k < chain.count; ++k) {
@@ -215,12 +207,12 @@ class Component {
   // The expected square of a linear function, summed over the axes of each kind.
   ByKind expected_squares(std::span<const Term> terms) const {
     ByKind sums;
-    for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
-      sums[static_cast<Eigen::Index>(kind)] = expected_square(terms, kKinds[kind]);
+    for (std::size_t kind = 0; kind < kAxisKinds.size(); ++kind)
+      sums[static_cast<Eigen::Index>(kind)] = expected_square(terms, kAxisKinds[kind]);
     return sums;
   }
 
-  double expected_square(std::span<const Term> terms, const Kind& kind) const {
+  double expected_square(std::span<const Term> terms, const AxisKind& kind) const {
     double sum = 0;
     for (int axis = kind.first; axis < kind.first + kind.axes; ++axis) {
       double value = 0;
@@ -236,12 +228,11 @@ class Component {
     return sum;
   }
 
-  // One step of expectation maximization. The variances of a drive are those of all drives, and its
-  // own as far as it shows them: the distribution of all errors has long tails.
+  // One step of expectation maximization.
   void update_variances() {
     constexpr double kBiasPrior = 3;  // values that what is common to all counts as
     constexpr double kDriftPrior = 15;
-    const ByKind axes(kKinds[0].axes, kKinds[1].axes);
+    const ByKind axes(kAxisKinds[0].axes, kAxisKinds[1].axes);
     std::vector<Squares> of_bias;
     for (const auto& [number, bias] : biases_) {
       const std::array<Term, 1> terms = {term(bias.node, 1)};
@@ -254,51 +245,47 @@ class Component {
       squares.counts += axes;
       squares.is_stated = drives_[drive].sigma_m.has_value();
     });
-    const ByKind common_bias = common(of_bias, settings_.bias_sigma_m);
+    const ByKind least = ByKind(settings_.min_sigma_m, settings_.min_roll_sigma_rad).cwiseAbs2();
+    const double usual_bias_m2 = settings_.bias_sigma_m * settings_.bias_sigma_m;
+    const ByKind common_bias = common_variances(of_bias, usual_bias_m2, least);
     std::size_t next = 0;
     for (auto& [number, bias] : biases_)
-      bias.variance = drawn_to(common_bias, kBiasPrior, of_bias[next++], settings_.bias_sigma_m);
+      bias.variance = drawn_variances(of_bias[next++], common_bias, kBiasPrior, usual_bias_m2);
+    const double usual_drift_m2 = settings_.drift_sigma_m * settings_.drift_sigma_m;
     std::vector<Squares> all_drifts;
     all_drifts.reserve(of_drift.size());
     for (const auto& [drive, squares] : of_drift) all_drifts.push_back(squares);
-    const ByKind common_drift = common(all_drifts, settings_.drift_sigma_m);
+    const ByKind common_drift = common_variances(all_drifts, usual_drift_m2, least);
     for (const auto& [drive, squares] : of_drift)
-      drifts_.at(drive) = drawn_to(common_drift, kDriftPrior, squares, settings_.drift_sigma_m);
+      drifts_.at(drive) = drawn_variances(squares, common_drift, kDriftPrior, usual_drift_m2);
   }
 
-  // Sums of squares, and of how many values.
-  struct Squares {
-    ByKind sums = ByKind::Zero();
-    ByKind counts = ByKind::Zero();
-    bool is_stated = false;  // of positions, in units of what was stated
-  };
-
-  // The medians of the drives' mean squares; of positions where none is known, `usual_m` squared.
-  ByKind common(const std::vector<Squares>& squares, double usual_m) const {
-    ByKind medians = ByKind(settings_.min_sigma_m, settings_.min_roll_sigma_rad).cwiseAbs2();
-    for (Eigen::Index kind = 0; kind < medians.size(); ++kind) {
-      std::vector<double> means;
-      means.reserve(squares.size());
-      for (const Squares& each : squares) {
-        if (kind == 0 && each.is_stated) continue;
-        means.push_back(each.sums[kind] / each.counts[kind]);
+  // Differences of two biases that ties tell, of which none follows from others.
+  std::size_t differences_of_biases() const {
+    std::map<std::size_t, std::size_t> group;  // of each bias
+    for (const auto& [number, bias] : biases_) group[number] = number;
+    std::size_t count = 0;
+    for (const Tie& tie : ties_) {
+      const std::size_t a = group.at(bias_of(tie.a.stretch));
+      const std::size_t b = group.at(bias_of(tie.b.stretch));
+      if (a == b) continue;
+      ++count;
+      for (auto& [number, of_bias] : group) {
+        if (of_bias == b) of_bias = a;
       }
-      if (means.empty()) means.push_back(usual_m * usual_m);
-      std::ranges::sort(means);
-      const std::size_t middle = means.size() / 2;
-      const double median =
-          means.size() % 2 == 1 ? means[middle] : (means[middle - 1] + means[middle]) / 2;
-      medians[kind] = std::max(median, medians[kind]);
     }
-    return medians;
+    return count;
   }
 
-  // What is stated counts as common, and as the least.
-  static ByKind drawn_to(ByKind common, double prior, const Squares& own, double stated_m) {
-    if (own.is_stated) common[0] = stated_m * stated_m;
-    ByKind drawn = ((prior * common + own.sums).array() / (prior + own.counts.array())).matrix();
-    if (own.is_stated) drawn[0] = std::max(drawn[0], common[0]);
-    return drawn;
+  // Few biases may agree by chance.
+  void widen_biases(std::size_t differences) {
+    for (auto& [number, bias] : biases_) {
+      for (std::size_t kind = 0; kind < kAxisKinds.size(); ++kind) {
+        if (kind == 0 && bias.is_stated) continue;
+        bias.variance[static_cast<Eigen::Index>(kind)] *=
+            few_values_factor(differences * static_cast<std::size_t>(kAxisKinds[kind].axes));
+      }
+    }
   }
 
   const std::vector<DriveErrors>& drives_;

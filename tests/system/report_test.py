@@ -143,7 +143,7 @@ class Reports(CommandTest):
         self.assertEqual(page.ask("return document.querySelectorAll('table tbody th').length"), 4)
         along, (plan,) = page.plots("frames"), page.plots("plan")
         self.assertEqual(page.ask("return plots[0].chart.data.datasets.map((each) => each.label).filter((label) => label)"),
-                         ["milepost", "2σ of milepost", "inverse-scale", "tracklet-regression"])
+                         ["milepost", "2σ against the map", "2σ of milepost in the world", "inverse-scale", "tracklet-regression"])
         for plot, colours in enumerate((3, 1, 3, 3, 3, 2, 3)):
             self.expect_drawn(page, plot, colours)
         self.check_lanes(page)

@@ -22,26 +22,58 @@ bool is_marked(FixStatus status) {
   return std::find(kMarked.begin(), kMarked.end(), status) != kMarked.end();
 }
 
-// A kind of signed errors along the route, and the reported sigma.
+using FixSigma = double (*)(const Fix&);  // NaN if none is reported
+
+double along_sigma_m(const Fix& fix) { return fix.along_m ? fix.sigma_m : kNaN; }
+double along_sigma_map_m(const Fix& fix) { return fix.along_m ? fix.sigma_map_m : kNaN; }
+double lateral_sigma_m(const Fix& fix) { return fix.lateral_sigma_m.value_or(kNaN); }
+// The map is as exact across as along.
+double lateral_sigma_map_m(const Fix& fix) {
+  const double lateral_m = lateral_sigma_m(fix);
+  const double of_map_m2 = fix.sigma_m * fix.sigma_m - fix.sigma_map_m * fix.sigma_map_m;
+  return std::isnan(lateral_m) ? kNaN : std::sqrt(std::max(0.0, lateral_m * lateral_m - of_map_m2));
+}
+
+// A kind of signed errors along the route, and the reported sigmas.
 struct ErrorKind {
   std::vector<double> MethodSeries::*error_m;
   const char* error_column;
-  const char* sigma_column;
-  double (*sigma_m)(const Fix&);  // NaN if none is reported
+  FixSigma sigma_m;      // in the world
+  FixSigma sigma_map_m;  // against the map
 };
 
-constexpr ErrorKind kAlong = {&MethodSeries::error_m, "error_m", "sigma_m",
-                              [](const Fix& fix) { return fix.along_m ? fix.sigma_m : kNaN; }};
-constexpr ErrorKind kLateral = {&MethodSeries::lateral_error_m, "lateral_error_m",
-                                "lateral_sigma_m",
-                                [](const Fix& fix) { return fix.lateral_sigma_m.value_or(kNaN); }};
+constexpr ErrorKind kAlong = {&MethodSeries::error_m, "error_m", along_sigma_m, along_sigma_map_m};
+constexpr ErrorKind kLateral = {&MethodSeries::lateral_error_m, "lateral_error_m", lateral_sigma_m,
+                                lateral_sigma_map_m};
 
-std::vector<double> two_sigmas_m(const MethodSeries& method, const ErrorKind& kind) {
+std::vector<double> two_sigmas_m(const MethodSeries& method, FixSigma sigma_m) {
   std::vector<double> values;
-  for (const EvaluatedFix& fix : method.evaluation->fixes) {
-    values.push_back(2 * kind.sigma_m(fix.frame.fix));
-  }
+  for (const EvaluatedFix& fix : method.evaluation->fixes)
+    values.push_back(2 * sigma_m(fix.frame.fix));
   return values;
+}
+
+// Half the height of a plot of errors: as far as they reach, and the usual band of the reference
+// method, unless that makes them too small to see.
+double error_axis_m(const ReportSeries& series, const ErrorKind& kind, double errors_reach_m) {
+  constexpr double kMostTimes = 4;
+  std::vector<double> band_m =
+      finite_only(two_sigmas_m(series.reference_method(), kind.sigma_map_m));
+  std::ranges::sort(band_m);
+  const double usual_m = band_m.empty() ? 0 : quantile(band_m, 0.75);
+  return rounded_up(std::clamp(usual_m, errors_reach_m, kMostTimes * errors_reach_m), 3);
+}
+
+// Of the errors that have a sigma.
+double share_within(const std::vector<double>& errors_m, const std::vector<double>& bounds_m) {
+  double within = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < errors_m.size(); ++i) {
+    if (std::isnan(errors_m[i]) || std::isnan(bounds_m[i])) continue;
+    within += std::abs(errors_m[i]) <= bounds_m[i] ? 1 : 0;
+    ++count;
+  }
+  return within / count;
 }
 
 // A plot over frames without layers.
@@ -126,18 +158,21 @@ std::string beyond_text(const ReportSeries& series, const ErrorKind& kind, doubl
          ".";
 }
 
-std::string band_text(const MethodSeries& reference, double within_2_sigma) {
-  return "The grey band is twice the standard deviation that " + reference.name +
-         " reports: " + number(100 * within_2_sigma, 1) +
-         "\u00A0% of its errors lie inside; for a consistent estimate 95\u00A0% do. ";
+std::string band_text(const MethodSeries& reference, const ErrorKind& kind) {
+  const std::vector<double>& errors_m = reference.*kind.error_m;
+  const auto inside = [&](FixSigma sigma_m) {
+    return number(100 * share_within(errors_m, two_sigmas_m(reference, sigma_m)), 1) + "\u00A0%";
+  };
+  return "The grey bands are twice the standard deviations that " + reference.name +
+         " reports: the wide one in the world, with what the map knows of its own error (" +
+         inside(kind.sigma_m) + " of the errors lie inside), the dark one against the map (" +
+         inside(kind.sigma_map_m) + "). For a consistent estimate 95\u00A0% do. ";
 }
 
 std::string error_caption(const ReportSeries& series, double limit_m) {
   const MethodSeries& reference = series.reference_method();
   std::string text = "Above zero the fix is ahead of the truth, below it behind. ";
-  if (reference.evaluation->summary.localized_frames > 0) {
-    text += band_text(reference, reference.evaluation->summary.within_2_sigma);
-  }
+  if (reference.evaluation->summary.localized_frames > 0) text += band_text(reference, kAlong);
   text += "The lanes under the axis mark frames that were not tracked. " + reference.name + ": " +
           status_counts(reference) + ".";
   return text + beyond_text(series, kAlong, limit_m) + unplaced_text(series);
@@ -146,22 +181,28 @@ std::string error_caption(const ReportSeries& series, double limit_m) {
 std::string lateral_caption(const ReportSeries& series, double limit_m) {
   const MethodSeries& reference = series.reference_method();
   std::string text = "Above zero the fix is right of the truth, below it left. ";
-  if (std::isfinite(reference.evaluation->summary.lateral_within_2_sigma)) {
-    text += band_text(reference, reference.evaluation->summary.lateral_within_2_sigma);
-  }
+  if (std::isfinite(reference.evaluation->summary.lateral_within_2_sigma))
+    text += band_text(reference, kLateral);
   return text + "Methods that do not estimate a lateral offset are omitted." +
          beyond_text(series, kLateral, limit_m);
 }
 
-// The errors of all methods over the band of the reference method.
+void add_band(Json& plot, const std::string& name, const char* colour,
+              const std::vector<double>& bounds_m) {
+  Json band = area_layer(name, colour, "route_m", rounded(bounds_m, 4));
+  band["kind"] = "band";
+  plot["layers"].push_back(band);
+}
+
+// The errors of all methods over the bands of the reference method.
 void add_errors(Json& plot, const ReportSeries& series, const ErrorKind& kind) {
   for (const MethodSeries* method : series.back_to_front()) {
     const bool is_reference = method == &series.reference_method();
     if (is_reference) {
-      Json band = area_layer("2\u03C3 of " + method->name, "band", "route_m",
-                             rounded(two_sigmas_m(*method, kind), 4));
-      band["kind"] = "band";
-      plot["layers"].push_back(band);
+      add_band(plot, "2\u03C3 of " + method->name + " in the world", "band",
+               two_sigmas_m(*method, kind.sigma_m));
+      add_band(plot, "2\u03C3 against the map", "map-band",
+               two_sigmas_m(*method, kind.sigma_map_m));
     }
     add_values(plot, *method, kind.error_column, is_reference);
   }
@@ -219,7 +260,7 @@ ReportSeries matching_methods(const ReportSeries& all) {
 Figure error_figure(const ReportSeries& series) {
   Figure figure;
   figure.heading = "Error along the route";
-  const double limit_m = rounded_up(series.error_limit_m, 3);
+  const double limit_m = error_axis_m(series, kAlong, series.error_limit_m);
   figure.caption = error_caption(series, limit_m);
   if (!series.has_route()) return figure;
   Json plot = route_plot(series, "Signed error of each frame along the route", 300,
@@ -236,7 +277,7 @@ Figure lateral_figure(const ReportSeries& all) {
       only(all, [](const MethodSeries& method) { return method.knows_lateral(); });
   Figure figure;
   figure.heading = "Error of the lateral offset";
-  const double limit_m = rounded_up(series.lateral_limit_m, 3);
+  const double limit_m = error_axis_m(series, kLateral, series.lateral_limit_m);
   figure.caption = lateral_caption(series, limit_m);
   if (!series.has_route()) return figure;
   Json plot = route_plot(series, "Signed error of the lateral offset along the route", 220,

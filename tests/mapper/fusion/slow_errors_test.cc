@@ -22,8 +22,9 @@ struct Noise {
 // The errors of drives at places of one road, every kPlaceM.
 class NoisyDrives {
  public:
-  NoisyDrives(std::size_t drives, const Noise& noise, unsigned seed) : random_(seed) {
-    const auto places = static_cast<std::size_t>(kRoadM / kPlaceM) + 1;
+  NoisyDrives(std::size_t drives, const Noise& noise, unsigned seed, double road_m = kRoadM)
+      : random_(seed) {
+    const auto places = static_cast<std::size_t>(road_m / kPlaceM) + 1;
     const double decay = std::exp(-kPlaceM / 200);
     for (std::size_t drive = 0; drive < drives; ++drive) {
       const Eigen::Vector3d bias = normal3(noise.bias_m);
@@ -34,7 +35,7 @@ class NoisyDrives {
         drift = decay * drift + normal3(noise.drift_m * std::sqrt(1 - decay * decay));
       }
       known.push_back({.bias = drive});
-      stretches.push_back({drive, kRoadM});
+      stretches.push_back({drive, road_m});
       rolls_rad.push_back(0);
     }
   }
@@ -144,6 +145,19 @@ TEST(SlowErrors, SigmaHoldsOverDraws) {
     EXPECT_GT(within, 0.9);
     EXPECT_LT(within, 0.99);
   }
+}
+
+TEST(SlowErrors, SigmaHoldsWhereTwoBiasesMayAgreeByChance) {
+  double within = 0;
+  constexpr unsigned kDraws = 150;
+  constexpr double kShortRoadM = 200;
+  for (unsigned seed = 1; seed <= kDraws; ++seed) {
+    NoisyDrives drives(2, {.bias_m = 0.1, .drift_m = 0}, seed, kShortRoadM);
+    drives.tie_all();
+    within += drives.part_within(drives.estimated(), 2) / kDraws;
+  }
+  EXPECT_GT(within, 0.92);
+  EXPECT_LT(within, 0.99);
 }
 
 TEST(SlowErrors, DrivesThatAgreeAreAsExactAsTheirTies) {

@@ -97,6 +97,7 @@ TEST(ReportData, LateralOffsetAndHeadingAreOfTheMethodsThatKnowThem) {
   const Drive drive = straight_drive(20);
   MethodEvaluation ours = evaluation("milepost", drive, small_errors(20, 0.05));
   know_lateral(ours);
+  ours.fixes[5].lateral_error_m = 0.035;  // beyond two sigma against the map, not in the world
   MethodEvaluation far = ours;
   far.summary.method = "far";
   far.fixes[3].lateral_error_m = 5;
@@ -109,8 +110,11 @@ TEST(ReportData, LateralOffsetAndHeadingAreOfTheMethodsThatKnowThem) {
   EXPECT_THAT(page["lead"].get<std::string>(), HasSubstr("lateral offset is 0.028\u00A0m"));
   const Json figure = part_of(page, "Error of the lateral offset");
   EXPECT_EQ(layers_of(figure, "line").size(), 2U);
-  EXPECT_EQ(layers_of(figure, "band").size(), 1U);
-  EXPECT_THAT(figure["caption"].get<std::string>(), HasSubstr("67.0\u00A0% of its errors"));
+  const std::vector<Json> bands = layers_of(figure, "band");
+  ASSERT_EQ(bands.size(), 2U);
+  EXPECT_NEAR(bands[0]["y"][3].get<double>(), 0.04, 1e-9);
+  EXPECT_NEAR(bands[1]["y"][3].get<double>(), 0.0286, 1e-9);  // without the map's own error
+  EXPECT_THAT(figure["caption"].get<std::string>(), ContainsRegex("world.*100.0.*map.*95.0"));
   EXPECT_THAT(figure["caption"].get<std::string>(),
               ContainsRegex("errors beyond [0-9.]+\u00A0m: 1 of far\\."));
   const Json errors_m = column_of(page, layers_of(figure, "line", "far").at(0)["y"]);

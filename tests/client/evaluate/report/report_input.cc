@@ -42,6 +42,7 @@ MethodEvaluation evaluation(const std::string& method, const Drive& drive,
       fix.frame.fix.segment = "s1";
       fix.frame.fix.along_m = static_cast<double>(i) + errors_m[i];
       fix.frame.fix.sigma_m = 0.05;
+      fix.frame.fix.sigma_map_m = 0.048;
       fix.frame.fix.position = place(*fix.frame.fix.along_m);
       fix.frame.fix.matches = 30;
       fix.error_m = errors_m[i];
