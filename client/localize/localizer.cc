@@ -3,25 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <variant>
 
 #include "client/localize/branches.h"
 #include "client/localize/hypothesis.h"
 #include "client/localize/hypothesis_fix.h"
-#include "client/localize/recent_relocalizers.h"
+#include "client/localize/nearby_search.h"
 #include "client/localize/relocalization_check.h"
 #include "client/localize/wanted_map.h"
-#include "schema/geo/near.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kMaxStartTurnDeg = 60;    // between a known heading and that of a segment
-constexpr double kMaxOdometryAgeS = 0.5;   // of a reading used when a hypothesis starts
-constexpr std::size_t kMaxCandidates = 4;  // segments searched
-constexpr double kLeftSigmaM = 1;          // minimum sigma of a hypothesis that left the map
-constexpr double kDoubt = -1;              // log Bayes factor of a frame that causes doubt
+constexpr double kMaxOdometryAgeS = 0.5;  // of a reading used when a hypothesis starts
+constexpr double kLeftSigmaM = 1;         // minimum sigma of a hypothesis that left the map
+constexpr double kDoubt = -1;             // log Bayes factor of a frame that causes doubt
 
 // No hypothesis is accepted: all are tested against each other and elsewhere.
 struct Searching {
@@ -47,13 +43,6 @@ struct Tracking {
   std::optional<double> doubt = {};
 };
 
-// The result of searching around a position.
-struct NearbySearch {
-  // Distance of the nearest segment, infinite if none is near; none while unknown.
-  std::optional<double> nearest_m;
-  std::optional<Error> failure = std::nullopt;  // why map data is missing
-};
-
 }  // namespace
 
 struct Localizer::Impl {
@@ -61,11 +50,11 @@ struct Localizer::Impl {
        const LocalizerSettings& given)
       : settings(given),
         provider(source, given.method.layer, given.provider),
-        relocalizers(given.method, query, given.method_settings) {}
+        nearby(given, query) {}
 
   LocalizerSettings settings;
   TileProvider provider;
-  RecentRelocalizers relocalizers;
+  NearbySearch nearby;
 
   std::optional<GnssFix> gnss;       // the latest
   std::optional<Odometry> odometry;  // the latest
@@ -78,9 +67,7 @@ struct Localizer::Impl {
   Result<Fix> leave(SharedFrame& frame);
 
   std::optional<GnssFix> fresh(const std::optional<GnssFix>& position, double timestamp_s) const;
-  Surroundings surroundings(const GnssFix& around) const;
-  double start_reach_m(const GnssFix& around, double timestamp_s) const;
-  NearbySearch relocalize_nearby(SharedFrame& frame, const GnssFix& around, Searching& searching);
+  FoundNearby search_around(SharedFrame& frame, const GnssFix& around, Searching& searching);
   double log_bayes_factor_of_return(const Searching& searching, const Hypothesis& found) const;
   void carry(Searching& searching, SharedFrame& frame);
   Fix weighed(Searching& searching, double timestamp_s);
@@ -136,13 +123,6 @@ std::optional<GnssFix> left_at(const Searching& searching, double timestamp_s) {
 std::optional<GnssFix> carried_place(const Searching& searching, double timestamp_s) {
   const auto left = left_at(searching, timestamp_s);
   return left ? left : carried_to(searching.given_up, timestamp_s, kElsewhereM);
-}
-
-// Whether the segment leads in the vehicle's heading, if that is known.
-bool leads_ahead(const RouteLine& line, double along_m, const GnssFix& vehicle) {
-  if (!vehicle.heading_deg) return true;
-  const double turn_deg = *vehicle.heading_deg - line.heading_deg_at(along_m);
-  return std::abs(std::remainder(turn_deg, 360)) <= kMaxStartTurnDeg;
 }
 
 }  // namespace
@@ -236,63 +216,18 @@ std::optional<GnssFix> Localizer::Impl::fresh(const std::optional<GnssFix>& posi
   return is_fresh ? position : std::nullopt;
 }
 
-// The circle in which segments may be the one that a position is on.
-Surroundings Localizer::Impl::surroundings(const GnssFix& around) const {
-  const double radius_m = settings.start_radius_m + settings.start_sigmas * around.sigma_m;
-  return {around.position,
-          std::min(radius_m, kMaxNearRadiusM - settings.provider.surroundings_margin_m)};
-}
-
-// The half width of the arc length range that is searched around a position.
-double Localizer::Impl::start_reach_m(const GnssFix& around, double timestamp_s) const {
-  const double age_s = std::max(0.0, timestamp_s - around.timestamp_s);
-  return settings.start_sigmas * around.sigma_m + settings.start_reach_m +
-         settings.receiver.speed_mps * age_s;
-}
-
 // Adds hypotheses on segments near a position from which this frame may have been taken.
-NearbySearch Localizer::Impl::relocalize_nearby(SharedFrame& frame, const GnssFix& around,
-                                                Searching& searching) {
-  auto near = frame.held().segments_near(surroundings(around));
-  if (!near) return {std::nullopt, frame.held().around_failure};
-  NearbySearch nearby;
-  nearby.nearest_m =
-      near->empty() ? std::numeric_limits<double>::infinity() : near->front().distance_m;
-  if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
-  for (const NearbySegment& where : *near) {
-    const HeldSegment* held = frame.held().find({where.version, where.segment});
-    if (held == nullptr || !held->layer) {
-      if (held != nullptr && held->failure) nearby.failure = held->failure;
-      continue;
-    }
-    if (!leads_ahead(held->layer->line, where.along_m, around)) continue;
-    const Result<Relocalizer*> relocalizer = relocalizers.on(held->layer);
-    if (!relocalizer) {
-      nearby.failure = relocalizer.error();
-      continue;
-    }
-    const double reach_m = start_reach_m(around, frame.timestamp_s());
-    Relocalization found =
-        (*relocalizer)
-            ->relocalize(frame, AlongRange{where.along_m, where.along_m}.widened(reach_m),
-                         std::nullopt);
-    if (found.failure) nearby.failure = found.failure;
-    for (RelocalizationCandidate& candidate : found.candidates) {
-      Hypothesis hypothesis{{.odds = LogOdds(settings.odds),
-                             .receiver = GnssLikelihood(settings.receiver),
-                             .timestamp_s = frame.timestamp_s(),
-                             .measured = true,
-                             .log_bayes_factor = candidate.log_bayes_factor,
-                             .matches = candidate.matches},
-                            std::move(candidate.tracker)};
-      if (!hypothesis.is_on_segment(hypothesis.tracker->pose())) continue;
-      hypothesis.odds.add(log_bayes_factor_of_return(searching, hypothesis));
-      if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)
-        hypothesis.tracker->observe(*odometry);
-      searching.hypotheses.push_back(std::move(hypothesis));
-    }
+FoundNearby Localizer::Impl::search_around(SharedFrame& frame, const GnssFix& around,
+                                           Searching& searching) {
+  FoundNearby found = nearby.search(frame, around);
+  for (Hypothesis& hypothesis : found.hypotheses) {
+    hypothesis.odds.add(log_bayes_factor_of_return(searching, hypothesis));
+    if (odometry && frame.timestamp_s() - odometry->timestamp_s <= kMaxOdometryAgeS)
+      hypothesis.tracker->observe(*odometry);
+    searching.hypotheses.push_back(std::move(hypothesis));
   }
-  return nearby;
+  found.hypotheses.clear();
+  return found;
 }
 
 // Advances the hypotheses that are not at this frame yet.
@@ -326,14 +261,13 @@ Result<Fix> Localizer::Impl::search(SharedFrame& frame) {
   if (!around && !is_tested) around = fresh(searching.lost_at, frame.timestamp_s());
   if (!around) around = carried_place(searching, frame.timestamp_s());
   if (around) {
-    const NearbySearch nearby = relocalize_nearby(frame, *around, searching);
-    if (nearby.failure) {
-      if (searching.hypotheses.empty()) return *nearby.failure;
-      last_error = nearby.failure;
+    const FoundNearby found = search_around(frame, *around, searching);
+    if (found.failure) {
+      if (searching.hypotheses.empty()) return *found.failure;
+      last_error = found.failure;
     }
-    if (reading && nearby.nearest_m) {
-      const bool is_off =
-          *nearby.nearest_m > settings.start_sigmas * reading->sigma_m + kEndMarginM;
+    if (reading && found.nearest_m) {
+      const bool is_off = *found.nearest_m > settings.start_sigmas * reading->sigma_m + kEndMarginM;
       if (is_off) {
         searching.waiting = FixStatus::off_map;
       } else if (searching.waiting == FixStatus::off_map && !searching.left) {
@@ -386,7 +320,7 @@ void Localizer::Impl::check_by_relocalization(Tracking& tracking, SharedFrame& f
                       tracking.relocalization_check.is_due(hypothesis.way_m());
   if (!is_due) return;
   const AlongRange around = AlongRange{along_m, along_m}.widened(kSameHypothesisM);
-  const Result<Relocalizer*> relocalizer = relocalizers.on(hypothesis.tracker->layer());
+  const Result<Relocalizer*> relocalizer = nearby.relocalizer_on(hypothesis.tracker->layer());
   if (!relocalizer) return;
   Relocalization found =
       (*relocalizer)->relocalize(frame, around, tracking.relocalization_check.camera(hypothesis));
@@ -481,19 +415,16 @@ Wants Localizer::Impl::wants(double timestamp_s, const HeldMap& held) const {
     if (!around) around = carried_place(searching, timestamp_s);
   }
   if (!around) return wanted.wants();
-  wanted.set_surroundings(surroundings(*around));
-  auto near = held.segments_near(surroundings(*around));
-  if (!near) return wanted.wants();
-  if (near->size() > kMaxCandidates) near->resize(kMaxCandidates);
-  for (const NearbySegment& where : *near) {
+  wanted.set_surroundings(nearby.surroundings(*around));
+  const auto segments = nearby.segments(held, *around);
+  if (!segments) return wanted.wants();
+  for (const NearbySegment& where : *segments) {
     const SegmentKey key = {where.version, where.segment};
     // Segments on which the vehicle may be relocalized; other segments near the end of this one.
     const bool is_of_use = !tracking || key == tracking->hypothesis.layer().key ||
                            is_near_end(tracking->hypothesis, settings.prefetch_m);
     if (!is_of_use) continue;
-    const AlongRange looked_at =
-        AlongRange{where.along_m, where.along_m}.widened(start_reach_m(*around, timestamp_s));
-    wanted.add(key, reach.around(looked_at),
+    wanted.add(key, reach.around(nearby.range(where.along_m, *around, timestamp_s)),
                tracking ? WantedFor::a_restart : WantedFor::this_frame);
   }
   return wanted.wants();

@@ -4,37 +4,18 @@
 #include <memory>
 #include <optional>
 
-#include "client/fetch/backoff.h"
 #include "client/fetch/map_source.h"
-#include "client/fetch/provider_state.h"
 #include "client/fetch/stopped.h"
 #include "client/fetch/tile_provider.h"
 #include "client/localize/expected_route.h"
 #include "client/localize/fix.h"
 #include "client/localize/gnss_fix.h"
-#include "client/localize/gnss_likelihood.h"
-#include "client/localize/landmark_method.h"
-#include "client/localize/log_odds.h"
+#include "client/localize/localizer_settings.h"
 #include "client/localize/query.h"
 #include "schema/geo/odometry.h"
 #include "schema/geo/pinhole.h"
 
 namespace milepost {
-
-struct LocalizerSettings {
-  Method method = landmark_method();
-  double start_radius_m = 30;  // segments farther from the GNSS fix are not searched
-  double start_sigmas = 3;     // of the GNSS fix, searched along the segment
-  double start_reach_m = 5;    // ... plus this
-  double max_gnss_age_s = 3;   // older fixes neither start nor contradict a hypothesis
-  LogOddsSettings odds;
-  GnssLikelihoodSettings receiver;
-  int max_hypotheses = 5;        // tested against each other
-  int max_predicted_frames = 8;  // frames without a measurement until the vehicle counts as lost
-  double prefetch_m = 300;       // length of road to prefetch ahead
-  MethodSettings method_settings;
-  ProviderSettings provider;
-};
 
 // Not safe to use from several threads at once. Background threads of the localizer load the map: a
 // frame uses the data that has arrived and waits for nothing.
