@@ -14,7 +14,8 @@ enum class FixStatus {
   initializing,  // the hypotheses are not decided yet: the sigmas of a fix cover all of them
   tracking,      // this frame was measured against the map
   predicted,     // no measurement, or one that contradicts the pose: propagated by the motion
-  lost,          // the hypothesis was rejected; relocalizing around the last fix or the GNSS fix
+  lost,          // the hypothesis was rejected, and its motion does not tell where it is now;
+                 // relocalizing around the last fix or the GNSS fix
   off_map,       // no segment is near, or the vehicle drove past an end of its segment
 };
 

@@ -86,6 +86,12 @@ bool Hypothesis::is_on_segment(const TrackedPose& pose) const {
          pose.along_m <= layer().line.length_m() + kEndMarginM;
 }
 
+bool Hypothesis::is_carried(const TrackedPose& pose) const {
+  constexpr double kMaxSigmaM = 10;
+  return was_tracked && pose.full && is_on_segment(pose) &&
+         pose.full->camera.sigma_in_plan_m() <= kMaxSigmaM;
+}
+
 TrackingResult Hypothesis::advance(SharedFrame& frame) {
   const double before_m = way_m();
   const GeoPoint from = position();
@@ -134,9 +140,11 @@ std::vector<Hypothesis> weigh(std::vector<Hypothesis>& hypotheses,
   for (Hypothesis& hypothesis : hypotheses) {
     if (!hypothesis.weighed) hypothesis.weigh(best, reading);
   }
-  const auto unlikely = std::stable_partition(
-      hypotheses.begin(), hypotheses.end(),
-      [](const Hypothesis& hypothesis) { return hypothesis.odds.log() >= kMinLogOdds; });
+  const auto unlikely =
+      std::stable_partition(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& hypothesis) {
+        return hypothesis.odds.log() >= kMinLogOdds ||
+               hypothesis.is_carried(hypothesis.tracker->pose());
+      });
   std::vector<Hypothesis> dropped(std::make_move_iterator(unlikely),
                                   std::make_move_iterator(hypotheses.end()));
   hypotheses.erase(unlikely, hypotheses.end());

@@ -50,6 +50,10 @@ struct Hypothesis : HypothesisRecord {
   // Whether a pose is on the hypothesis' segment: on its road, and not beyond an end of it.
   bool is_on_segment(const TrackedPose& pose) const;
 
+  // Whether it was tracked, and its motion tells to some 10 m that it has come to this pose on its
+  // segment.
+  bool is_carried(const TrackedPose& pose) const;
+
   double way_m() const { return tracker->pose().along_m + way_before_m; }
 
   // Tracks to the next frame.
@@ -63,8 +67,8 @@ struct Hypothesis : HypothesisRecord {
 };
 
 // Updates the odds of all hypotheses with the last frame and the GNSS fix. Equal hypotheses are
-// merged, unlikely ones and those beyond `most` are dropped; the most likely comes first. Returns
-// the unlikely ones.
+// merged, those beyond `most` and unlikely ones are dropped, but not one that was tracked while its
+// motion tells well where it is; the most likely comes first. Returns the unlikely ones.
 std::vector<Hypothesis> weigh(std::vector<Hypothesis>& hypotheses,
                               const std::optional<GnssFix>& reading, std::size_t most);
 

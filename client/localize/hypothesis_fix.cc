@@ -51,15 +51,12 @@ Fix fix_of(const Hypothesis& hypothesis, const TrackedPose& pose, double timesta
 }
 
 void carry_on(Fix& fix, const Hypothesis& hypothesis, double timestamp_s) {
-  const auto in_plan_m = [](const GeoCameraPose& camera) {
-    return std::sqrt(camera.covariance[0] + camera.covariance[7]);
-  };
   fix.camera = hypothesis.tracker->pose_at(timestamp_s).full->camera;
   fix.position = fix.camera->position;
   fix.heading_deg = fix.camera->heading_deg;
-  fix.sigma_map_m = in_plan_m(*fix.camera);
+  fix.sigma_map_m = fix.camera->sigma_in_plan_m();
   widen_in_plan(*fix.camera, hypothesis.layer().position_error.sigma_m.value_or(0));
-  fix.sigma_m = in_plan_m(*fix.camera);
+  fix.sigma_m = fix.camera->sigma_in_plan_m();
 }
 
 void widen(Fix& fix, double log_odds, const Hypothesis& hypothesis,

@@ -72,6 +72,7 @@ struct Localizer::Impl {
   void carry(Searching& searching, SharedFrame& frame);
   Fix weighed(Searching& searching, double timestamp_s);
   Fix unclaimed(const Searching& searching, double timestamp_s) const;
+  Fix carried_fix(const Hypothesis& hypothesis, double timestamp_s) const;
   void check_by_relocalization(Tracking& tracking, SharedFrame& frame);
   void claim(Hypothesis hypothesis);
   Wants wants(double timestamp_s, const HeldMap& held) const;
@@ -104,25 +105,29 @@ bool is_near_end(const Hypothesis& hypothesis, double ahead_m) {
 }
 
 // Where a hypothesis is now by its motion, while that is known well enough.
-std::optional<GnssFix> carried_to(const std::optional<Hypothesis>& hypothesis, double timestamp_s,
+std::optional<GnssFix> carried_to(const Hypothesis& hypothesis, double timestamp_s,
                                   double min_sigma_m) {
-  if (!hypothesis) return std::nullopt;
-  const TrackedPose pose = hypothesis->tracker->pose_at(timestamp_s);
+  const TrackedPose pose = hypothesis.tracker->pose_at(timestamp_s);
   if (!pose.full) return std::nullopt;
-  const auto& covariance = pose.full->camera.covariance;
-  const double sigma_m = std::sqrt(covariance[0] + covariance[7]);
+  const double sigma_m = pose.full->camera.sigma_in_plan_m();
   if (sigma_m > kUnknownM) return std::nullopt;
   return GnssFix{timestamp_s, pose.full->camera.position, std::max(sigma_m, min_sigma_m)};
 }
 
 std::optional<GnssFix> left_at(const Searching& searching, double timestamp_s) {
-  return carried_to(searching.left, timestamp_s, kLeftSigmaM);
+  if (!searching.left) return std::nullopt;
+  return carried_to(*searching.left, timestamp_s, kLeftSigmaM);
 }
 
 // The place to search without a receiver.
 std::optional<GnssFix> carried_place(const Searching& searching, double timestamp_s) {
-  const auto left = left_at(searching, timestamp_s);
-  return left ? left : carried_to(searching.given_up, timestamp_s, kElsewhereM);
+  if (const auto left = left_at(searching, timestamp_s)) return left;
+  for (const Hypothesis& hypothesis : searching.hypotheses) {
+    if (hypothesis.is_carried(hypothesis.tracker->pose_at(timestamp_s)))
+      return carried_to(hypothesis, timestamp_s, kElsewhereM);
+  }
+  if (!searching.given_up) return std::nullopt;
+  return carried_to(*searching.given_up, timestamp_s, kElsewhereM);
 }
 
 }  // namespace
@@ -302,11 +307,24 @@ Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
   return fix_of(std::get<Tracking>(state).hypothesis, FixStatus::tracking);
 }
 
-// The result without any hypothesis to tell: off the map the pose that the motion carries on.
+// The result without any hypothesis to tell: off the map, and after the one that was tracked was
+// rejected, the pose that the motion carries on.
 Fix Localizer::Impl::unclaimed(const Searching& searching, double timestamp_s) const {
+  const auto carried = std::ranges::find_if(searching.hypotheses, [&](const Hypothesis& each) {
+    return each.is_carried(each.tracker->pose_at(timestamp_s));
+  });
+  if (carried != searching.hypotheses.end()) return carried_fix(*carried, timestamp_s);
   Fix fix = unlocated(timestamp_s, searching.waiting);
   if (searching.waiting != FixStatus::off_map || !left_at(searching, timestamp_s)) return fix;
   carry_on(fix, *searching.left, timestamp_s);
+  return fix;
+}
+
+// Frames contradict the hypothesis, or show nothing: it may as well be elsewhere.
+Fix Localizer::Impl::carried_fix(const Hypothesis& hypothesis, double timestamp_s) const {
+  Fix fix = fix_of(hypothesis, hypothesis.tracker->pose_at(timestamp_s), timestamp_s,
+                   FixStatus::predicted);
+  widen(fix, std::min(hypothesis.odds.log(), settings.odds.doubt), hypothesis);
   return fix;
 }
 

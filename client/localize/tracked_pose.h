@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "schema/geo/geodesy.h"
@@ -17,6 +18,9 @@ struct GeoCameraPose {
   double roll_deg = 0;     // clockwise as seen by the driver
   // Row-major covariance of east, north, up (metres), heading, pitch, roll (degrees).
   std::array<double, 36> covariance = {};
+
+  // Of its distance in plan from the truth.
+  double sigma_in_plan_m() const { return std::sqrt(covariance[0] + covariance[7]); }
 };
 
 // Known to some methods only.

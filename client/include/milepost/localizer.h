@@ -26,7 +26,8 @@ enum class FixStatus {
   initializing,  // the hypotheses are not decided yet: the sigmas cover all of them
   tracking,      // this image was measured against the map
   predicted,     // no measurement, or one that contradicts the pose: propagated by the motion
-  lost,          // the pose was rejected; relocalizing around the last fix or the GNSS position
+  lost,          // the pose was rejected, and its motion does not tell where it is now;
+                 // relocalizing around the last fix or the GNSS position
   off_map,       // no mapped road is near, or the vehicle left it: the pose is carried on by motion
 };
 
