@@ -2,6 +2,10 @@
 // the map, or none.
 #pragma once
 
+#include <optional>
+
+#include "schema/base/range.h"
+
 namespace milepost {
 
 struct LogOddsSettings {
@@ -14,9 +18,10 @@ struct LogOddsSettings {
   double doubt = 2;          // ... upper bound after a frame that contradicts it; ...
   double give_up = 0;        // ... below which it is rejected
   // Consecutive frames see the same landmarks: evidence in favour counts in proportion to the
-  // distance travelled since the last one, fully after this distance, and as far as it exceeds what
-  // was counted of the frames before. Evidence against counts fully from this log Bayes factor on,
-  // and in proportion to it, or to the distance, below.
+  // distance from where it was counted before, fully at this distance, and as far as it exceeds
+  // what was counted of the frames before. A pose that jitters about one place goes nowhere.
+  // Evidence against counts fully from this log Bayes factor on, and in proportion to it, or to the
+  // distance, below.
   double novel_m = 5;
   double strongly_against = 3;
   // Probability that the vehicle leaves the map or the belief slips within novel_m. Bounds the
@@ -39,11 +44,14 @@ class LogOdds {
   double log() const { return log_; }
 
  private:
+  // How far a frame taken at along_m is beyond those in favour: [0, 1].
+  double novelty(double along_m) const;
+  void remember(double along_m);
+
   LogOddsSettings settings_;
   double log_;
-  bool seen_ = false;
-  double seen_from_m_ = 0;  // arc length of the last frame in favour
-  double counted_ = 0;      // of the evidence in favour that lies within novel_m of it
+  std::optional<AlongRange> seen_from_;  // arc lengths of the latest frames in favour
+  double counted_ = 0;                   // of the evidence in favour from there
 };
 
 }  // namespace milepost

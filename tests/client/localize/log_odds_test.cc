@@ -32,6 +32,18 @@ TEST(LogOdds, TheSameViewCountsOnce) {
   EXPECT_DOUBLE_EQ(odds.log(), once);
 }
 
+// A pose that jumps to and fro about a facade while the vehicle is long elsewhere.
+TEST(LogOdds, APoseThatJittersAboutOnePlaceSeesNothingNew) {
+  LogOdds odds = seen_once(3);
+  odds.add_frame(3, 3, kOddsSettings.novel_m / 4);
+  const double once = odds.log();
+  for (int frame = 0; frame < 100; ++frame)
+    odds.add_frame(3, 3, frame % 2 == 0 ? 0 : kOddsSettings.novel_m / 4);
+  EXPECT_DOUBLE_EQ(odds.log(), once);
+  odds.add_frame(3, 3, -kOddsSettings.novel_m / 4);  // backwards
+  EXPECT_DOUBLE_EQ(odds.log(), once + 3.0 / 4);
+}
+
 TEST(LogOdds, NewViewsCountAsFarAsTheyAreNew) {
   LogOdds odds = seen_once(3);
   const double once = odds.log();
