@@ -18,7 +18,7 @@ struct LocalizerSettings {
   LogOddsSettings odds;
   GnssLikelihoodSettings receiver;
   int max_hypotheses = 5;        // tested against each other
-  int max_predicted_frames = 8;  // frames without a measurement until the vehicle counts as lost
+  int max_predicted_frames = 8;  // without a measurement, until other hypotheses are searched
   double prefetch_m = 300;       // length of road to prefetch ahead
   MethodSettings method_settings;
   ProviderSettings provider;
