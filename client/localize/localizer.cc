@@ -119,13 +119,19 @@ std::optional<GnssFix> left_at(const Searching& searching, double timestamp_s) {
   return carried_to(*searching.left, timestamp_s, kLeftSigmaM);
 }
 
+// The rejected hypothesis that its motion carries on; null if there is none.
+const Hypothesis* carried_of(const Searching& searching, double timestamp_s) {
+  const auto carried = std::ranges::find_if(searching.hypotheses, [&](const Hypothesis& each) {
+    return each.is_carried(each.tracker->pose_at(timestamp_s));
+  });
+  return carried == searching.hypotheses.end() ? nullptr : &*carried;
+}
+
 // The place to search without a receiver.
 std::optional<GnssFix> carried_place(const Searching& searching, double timestamp_s) {
   if (const auto left = left_at(searching, timestamp_s)) return left;
-  for (const Hypothesis& hypothesis : searching.hypotheses) {
-    if (hypothesis.is_carried(hypothesis.tracker->pose_at(timestamp_s)))
-      return carried_to(hypothesis, timestamp_s, kElsewhereM);
-  }
+  if (const Hypothesis* carried = carried_of(searching, timestamp_s))
+    return carried_to(*carried, timestamp_s, kElsewhereM);
   if (!searching.given_up) return std::nullopt;
   return carried_to(*searching.given_up, timestamp_s, kElsewhereM);
 }
@@ -310,10 +316,8 @@ Fix Localizer::Impl::weighed(Searching& searching, double timestamp_s) {
 // The result without any hypothesis to tell: off the map, and after the one that was tracked was
 // rejected, the pose that the motion carries on.
 Fix Localizer::Impl::unclaimed(const Searching& searching, double timestamp_s) const {
-  const auto carried = std::ranges::find_if(searching.hypotheses, [&](const Hypothesis& each) {
-    return each.is_carried(each.tracker->pose_at(timestamp_s));
-  });
-  if (carried != searching.hypotheses.end()) return carried_fix(*carried, timestamp_s);
+  if (const Hypothesis* carried = carried_of(searching, timestamp_s))
+    return carried_fix(*carried, timestamp_s);
   Fix fix = unlocated(timestamp_s, searching.waiting);
   if (searching.waiting != FixStatus::off_map || !left_at(searching, timestamp_s)) return fix;
   carry_on(fix, *searching.left, timestamp_s);
