@@ -28,7 +28,7 @@ each with direction [x, y, z] (unit vector, x right, y down, z forward; its sign
 [x1, y1, x2, y2, index] in pixels, the longest first, with the index of its direction from 0, or -1.
 Methods: evidence (each line votes with its own noise, then all directions are refined jointly) and
 clustering (the aerial paper's: subtractive clustering of line intersections).
-Images have the camera's size and no lens distortion.
+Images have the camera's size; its lens is that of drive.json. Places are those in the image.
 Example: milepost-client vanishing --camera drives/tuesday/drive.json --out found.json \
            drives/tuesday/frames/*.jpg)";
 
@@ -42,7 +42,7 @@ struct VanishingOptions {
 
 using Json = nlohmann::ordered_json;
 
-using FindDirections = VanishingDirections (*)(const cv::Mat& gray, const Pinhole& view,
+using FindDirections = VanishingDirections (*)(const cv::Mat& gray, const Camera& camera,
                                                const VanishingSettings& settings);
 const std::map<std::string, FindDirections> kVanishingMethods = {
     {"clustering", clustered_vanishing_directions}, {"evidence", vanishing_directions}};
@@ -61,19 +61,23 @@ Json json_of(const VanishingDirection& found) {
           {"orientation", found.orientation == Orientation::vertical ? "vertical" : "horizontal"}};
 }
 
-Json json_of(const VanishingLine& line) {
-  const LineSegment& segment = line.segment;
-  Json row = {segment.start_px.x(), segment.start_px.y(), segment.end_px.x(), segment.end_px.y()};
+Json json_of(const VanishingLine& line, const Camera& camera) {
+  Json row = Json::array();
+  for (const Eigen::Vector2d& end : {line.segment.start_px, line.segment.end_px}) {
+    const Eigen::Vector2d shown = camera.image_from_pinhole(end).value_or(end);
+    row.push_back(shown.x());
+    row.push_back(shown.y());
+  }
   row.push_back(line.direction ? static_cast<int>(*line.direction) : -1);
   return row;
 }
 
-Json json_of(const std::string& image, const VanishingDirections& found) {
+Json json_of(const std::string& image, const VanishingDirections& found, const Camera& camera) {
   Json entry = {{"image", image}, {"directions", Json::array()}, {"lines", Json::array()}};
   for (const VanishingDirection& direction : found.directions) {
     entry["directions"].push_back(json_of(direction));
   }
-  for (const VanishingLine& line : found.lines) entry["lines"].push_back(json_of(line));
+  for (const VanishingLine& line : found.lines) entry["lines"].push_back(json_of(line, camera));
   return entry;
 }
 
@@ -90,7 +94,7 @@ Result<Json> found_in_all(const std::vector<std::string>& images, const Camera& 
                   std::to_string(images.size()));
     const Result<cv::Mat> gray = read_image_gray(image, camera, grey_bits);
     if (!gray) return gray.error();
-    entries.push_back(json_of(image, find(*gray, camera.pinhole, settings)));
+    entries.push_back(json_of(image, find(*gray, camera, settings), camera));
   }
   return entries;
 }

@@ -17,7 +17,7 @@ constexpr std::chrono::seconds kLongestWait(20);  // for the map data of one fra
 class RouteLocalizer {
  public:
   RouteLocalizer(const std::shared_ptr<MapSource>& source, const Camera& camera)
-      : localizer_(source, camera, LocalizerSettings()) {}
+      : camera_(camera), localizer_(source, camera, LocalizerSettings()) {}
 
   void observe(const Odometry& odometry) { localizer_.observe(odometry); }
 
@@ -35,7 +35,9 @@ class RouteLocalizer {
     std::optional<FeatureSet> features;
     const QueryFrame query{frame.timestamp_s,
                            [&](const FeatureParameters& parameters) -> const FeatureSet& {
-                             if (!features) features = FeatureExtractor(parameters).extract(gray);
+                             if (!features) {
+                               features = FeatureExtractor(parameters, camera_).extract(gray);
+                             }
                              return *features;
                            }};
     Result<Fix> fix = localizer_.localize(query);
@@ -53,6 +55,7 @@ class RouteLocalizer {
   const std::optional<Error>& outage() const { return outage_; }
 
  private:
+  Camera camera_;
   Localizer localizer_;
   bool had_fix_ = false;
   std::optional<Error> outage_;
@@ -67,7 +70,7 @@ Result<FoundDrive> find_drive(const Drive& drive, const std::vector<Wall>& walls
                  "the drive has no odometry",
                  "add the odometry readings (timestamp_s,speed_mps,yaw_rate_dps)"};
   }
-  GlobalLocalizer localizer(walls, drive.camera.pinhole, run.localizer);
+  GlobalLocalizer localizer(walls, drive.camera, run.localizer);
   std::optional<RouteLocalizer> on_route;
   if (run.localizer_source) on_route.emplace(run.localizer_source, drive.camera);
 

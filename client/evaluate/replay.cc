@@ -41,6 +41,8 @@ class MadeOnce {
 // The inputs of localizers computed from one frame at a time.
 class FrameContent {
  public:
+  explicit FrameContent(const Camera& camera) : camera_(camera) {}
+
   void set_frame(cv::Mat gray) {
     gray_ = std::move(gray);
     features_.forget();
@@ -55,7 +57,7 @@ class FrameContent {
 
   const FeatureSet& features(const FeatureParameters& parameters) {
     if (!extractor_ || !(parameters == parameters_)) {
-      extractor_ = std::make_unique<FeatureExtractor>(parameters);
+      extractor_ = std::make_unique<FeatureExtractor>(parameters, camera_);
       parameters_ = parameters;
       features_.forget();
     }
@@ -70,6 +72,7 @@ class FrameContent {
   double spared_ms() const { return spared_ms_; }
 
  private:
+  Camera camera_;
   cv::Mat gray_;
   std::unique_ptr<FeatureExtractor> extractor_;
   FeatureParameters parameters_;
@@ -169,7 +172,7 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
 
   Replay replay;
   replay.fixes.resize(methods.size());
-  FrameContent content;
+  FrameContent content(drive.camera);
   const FrameReader frames(drive);
   SensorLog sensors(drive);
   TilePatience patience;

@@ -7,8 +7,8 @@
 
 #include "client/fetch/file_source.h"
 #include "client/fetch/http_source.h"
+#include "schema/geo/camera.h"
 #include "schema/geo/camera_pose.h"
-#include "schema/geo/pinhole.h"
 
 namespace milepost::vehicle {
 namespace {
@@ -42,6 +42,29 @@ Result<std::shared_ptr<MapSource>> as_face(milepost::Result<std::shared_ptr<MapS
   return std::move(*source);
 }
 
+milepost::LensModel model_of(LensModel lens) {
+  switch (lens) {
+    case LensModel::brown_conrady:
+      return milepost::LensModel::brown_conrady;
+    case LensModel::kannala_brandt:
+      return milepost::LensModel::kannala_brandt;
+    case LensModel::pinhole:
+      break;
+  }
+  return milepost::LensModel::pinhole;
+}
+
+milepost::Result<Lens> lens_of(const Camera& camera) {
+  std::vector<double> coefficients = camera.distortion;
+  const bool is_plain = std::ranges::all_of(coefficients, [](double k) { return k == 0; });
+  if (camera.lens == LensModel::pinhole && is_plain) coefficients.clear();
+  return Lens::make(model_of(camera.lens), std::move(coefficients));
+}
+
+milepost::Mounting mounting_of(const Mounting& m) {
+  return {m.forward_m, m.right_m, m.up_m, m.yaw_deg, m.pitch_deg, m.roll_deg};
+}
+
 // Six degrees of freedom as a vector, in metres and radians of the tangent frame.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
@@ -52,16 +75,6 @@ Vector6 vector_from(const CameraPose& pose) {
   Vector6 v;
   v << pose.enu_m, pose.heading_rad, pose.pitch_rad, pose.roll_rad;
   return v;
-}
-
-// The vehicle frame has the axes of a camera that looks forward: x right, y down, z forward.
-Eigen::Isometry3d vehicle_from_camera(const Mounting& mounting) {
-  const CameraPose vehicle;  // where forward is north
-  const CameraPose camera = {{mounting.right_m, mounting.forward_m, mounting.up_m},
-                             mounting.yaw_deg * kRadPerDeg,
-                             mounting.pitch_deg * kRadPerDeg,
-                             mounting.roll_deg * kRadPerDeg};
-  return enu_from_camera(vehicle).inverse() * enu_from_camera(camera);
 }
 
 }  // namespace
@@ -103,22 +116,17 @@ Status check_camera(const Camera& camera) {
   for (const double value : {m.forward_m, m.right_m, m.up_m, m.yaw_deg, m.pitch_deg, m.roll_deg}) {
     if (!std::isfinite(value)) return wrong("camera", "the mounting is not finite", "measure it");
   }
-  for (const double coefficient : camera.distortion) {
-    if (coefficient == 0) continue;
-    return Error{ErrorCode::unsupported, "camera", "lenses with distortion are not supported yet",
-                 "rectify the images and pass the pinhole camera of the rectified images"};
-  }
-  if (camera.lens == LensModel::kannala_brandt) {
-    return Error{ErrorCode::unsupported, "camera", "fisheye lenses are not supported yet",
-                 "rectify the images and pass the pinhole camera of the rectified images"};
-  }
+  const auto lens = lens_of(camera);
+  if (!lens) return wrong("camera", lens.error().what, lens.error().hint);
   return {};
 }
 
 milepost::Camera plain_camera_of(const Camera& camera) {
   return {camera.width_px,
           camera.height_px,
-          {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px, camera.principal_y_px}};
+          {camera.focal_x_px, camera.focal_y_px, camera.principal_x_px, camera.principal_y_px},
+          *lens_of(camera),
+          mounting_of(camera.mounting)};
 }
 
 Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
@@ -146,7 +154,8 @@ Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
 }
 
 Pose vehicle_pose_of(const GeoCameraPose& camera, const Mounting& mounting) {
-  const Eigen::Isometry3d camera_from_vehicle = vehicle_from_camera(mounting).inverse();
+  const Eigen::Isometry3d camera_from_vehicle =
+      vehicle_from_camera(mounting_of(mounting)).inverse();
   const auto vehicle_of = [&](const Vector6& camera_pose) {
     return vector_from(pose_of(enu_from_camera(pose_from(camera_pose)) * camera_from_vehicle));
   };

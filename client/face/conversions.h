@@ -14,7 +14,7 @@
 #include "client/fetch/map_source.h"
 #include "client/localize/tracked_pose.h"
 #include "schema/base/result.h"
-#include "schema/geo/pinhole.h"
+#include "schema/geo/camera.h"
 
 namespace milepost::vehicle {
 
@@ -28,7 +28,7 @@ Error wrong(const std::string& where, const std::string& what, const std::string
 
 // Errors: invalid_input (not finite).
 Status check_reading(const OdometryReading& reading);
-// Errors: invalid_input (a value out of range), unsupported (a lens with distortion).
+// Errors: invalid_input (a value out of range, a lens that is none).
 Status check_camera(const Camera& camera);
 milepost::Camera plain_camera_of(const Camera& camera);
 

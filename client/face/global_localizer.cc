@@ -141,10 +141,10 @@ Result<GlobalLocalizer> GlobalLocalizer::open(const Source& source, const Camera
                  "wait longer"};
   }
   if (!walls) return walls.error();
-  return GlobalLocalizer(std::make_unique<Impl>(Impl{
-      camera,
-      milepost::GlobalLocalizer(*walls, plain_camera_of(camera).pinhole, internal_of(settings)),
-      {}}));
+  return GlobalLocalizer(std::make_unique<Impl>(
+      Impl{camera,
+           milepost::GlobalLocalizer(*walls, plain_camera_of(camera), internal_of(settings)),
+           {}}));
 }
 
 GlobalLocalizer::GlobalLocalizer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

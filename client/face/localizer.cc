@@ -55,7 +55,7 @@ struct Localizer::Impl {
 
   const FeatureSet& features_of(const cv::Mat& grey, const FeatureParameters& wanted) {
     if (!extractor || !(wanted == parameters)) {
-      extractor = std::make_unique<FeatureExtractor>(wanted);
+      extractor = std::make_unique<FeatureExtractor>(wanted, plain_camera_of(camera));
       parameters = wanted;
     }
     features = extractor->extract(grey);

@@ -106,12 +106,12 @@ double spread_m(const ParticleSet& particles, const Eigen::Vector2d& about_m) {
 }  // namespace
 
 struct GlobalLocalizer::Impl {
-  Impl(std::span<const Wall> geographic, const Pinhole& view,
+  Impl(std::span<const Wall> geographic, const Camera& camera,
        const GlobalLocalizerSettings& settings)
       : origin(middle_of(geographic)),
         frame(origin),
         walls(index_of(geographic, frame)),
-        observer(view, observer_settings(settings)),
+        observer(camera, observer_settings(settings)),
         filter(settings.method.make_filter(walls, area_of(settings, walls, frame),
                                            filter_settings(settings, frame))) {}
 
@@ -123,9 +123,9 @@ struct GlobalLocalizer::Impl {
   std::unique_ptr<PlanFilter> filter;
 };
 
-GlobalLocalizer::GlobalLocalizer(std::span<const Wall> walls, const Pinhole& view,
+GlobalLocalizer::GlobalLocalizer(std::span<const Wall> walls, const Camera& camera,
                                  const GlobalLocalizerSettings& settings)
-    : impl_(std::make_unique<Impl>(walls, view, settings)) {}
+    : impl_(std::make_unique<Impl>(walls, camera, settings)) {}
 GlobalLocalizer::~GlobalLocalizer() = default;
 GlobalLocalizer::GlobalLocalizer(GlobalLocalizer&&) noexcept = default;
 GlobalLocalizer& GlobalLocalizer::operator=(GlobalLocalizer&&) noexcept = default;

@@ -11,8 +11,8 @@
 #include "client/global/odometry_buffer.h"
 #include "client/global/wall_observer.h"
 #include "client/global/wall_particle_filter.h"
+#include "schema/geo/camera.h"
 #include "schema/geo/geodesy.h"
-#include "schema/geo/pinhole.h"
 #include "schema/tile/wall.h"
 
 namespace milepost {
@@ -54,7 +54,7 @@ struct GlobalPoseEstimate {
 class GlobalLocalizer {
  public:
   // REQUIRES: there are walls, none of which crosses longitude 180; particles > 0.
-  GlobalLocalizer(std::span<const Wall> walls, const Pinhole& view,
+  GlobalLocalizer(std::span<const Wall> walls, const Camera& camera,
                   const GlobalLocalizerSettings& settings);
   ~GlobalLocalizer();
   GlobalLocalizer(GlobalLocalizer&&) noexcept;

@@ -26,4 +26,16 @@ std::vector<LineSegment> line_segments(const cv::Mat& gray, double min_length_px
   return segments;
 }
 
+std::vector<LineSegment> undistorted(const std::vector<LineSegment>& segments,
+                                     const Camera& camera) {
+  if (camera.lens.is_pinhole()) return segments;
+  std::vector<LineSegment> straight;
+  for (const LineSegment& segment : segments) {
+    const auto start = camera.pinhole_from_image(segment.start_px);
+    const auto end = camera.pinhole_from_image(segment.end_px);
+    if (start && end) straight.push_back({start->pinhole_px, end->pinhole_px});
+  }
+  return straight;
+}
+
 }  // namespace milepost

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "schema/geo/camera.h"
+
 namespace milepost {
 
 // A segment between two points in pixels, x to the right and y down, from the centre of the top
@@ -22,5 +24,10 @@ struct LineSegment {
 // transform. Deterministic. Safe to call from several threads at once. REQUIRES: `gray` is CV_8UC1
 // and not empty.
 std::vector<LineSegment> line_segments(const cv::Mat& gray, double min_length_px);
+
+// The segments between the same points in the image of the camera's pinhole: edges that a lens
+// bends are found in pieces. Those that end beyond its field of view are left out.
+std::vector<LineSegment> undistorted(const std::vector<LineSegment>& segments,
+                                     const Camera& camera);
 
 }  // namespace milepost

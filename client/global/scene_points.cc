@@ -73,8 +73,8 @@ std::optional<RayIntersection> meeting_point(const Sights& observations) {
 
 }  // namespace
 
-ScenePointTracker::ScenePointTracker(const Pinhole& view, const ScenePointSettings& settings)
-    : view_(view), settings_(settings) {}
+ScenePointTracker::ScenePointTracker(const Camera& camera, const ScenePointSettings& settings)
+    : camera_(camera), settings_(settings) {}
 
 std::vector<ScenePoint> ScenePointTracker::observe(const cv::Mat& gray,
                                                    const OdometryIncrement& motion) {
@@ -95,17 +95,21 @@ std::vector<ScenePointTracker::Feature> ScenePointTracker::features_of(const cv:
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
   orb->detectAndCompute(gray, cv::noArray(), keypoints, descriptors);
-  std::vector<Feature> features(keypoints.size());
+  std::vector<Feature> features;
+  features.reserve(keypoints.size());
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
-    features[i].ray = view_.unproject(keypoints[i].pt.x, keypoints[i].pt.y);
-    std::memcpy(features[i].descriptor.data(), descriptors.ptr(static_cast<int>(i)), 32);
+    const auto at = camera_.pinhole_from_image({keypoints[i].pt.x, keypoints[i].pt.y});
+    if (!at) continue;
+    Feature& feature = features.emplace_back();
+    feature.ray = camera_.pinhole.unproject(at->pinhole_px.x(), at->pinhole_px.y());
+    std::memcpy(feature.descriptor.data(), descriptors.ptr(static_cast<int>(i)), 32);
   }
   return features;
 }
 
 std::vector<ScenePointTracker::Match> ScenePointTracker::matches_of(
     const std::vector<Feature>& features, const Eigen::Isometry3d& before_from_now) const {
-  const double reach = kSearchPx / view_.focal_px();
+  const double reach = kSearchPx / camera_.pinhole.focal_px();
   const double reach2 = reach * reach;
   struct Best {
     int bits = std::numeric_limits<int>::max();
@@ -150,13 +154,14 @@ void ScenePointTracker::follow(const std::vector<Feature>& features,
   for (const Match& match : matches) {
     pairs.push_back({tracks_[match.track].last.ray, features[match.feature].ray});
   }
-  const double ray_sigma = settings_.pixel_sigma_px / view_.focal_px();
+  const double ray_sigma = settings_.pixel_sigma_px / camera_.pinhole.focal_px();
   const Eigen::Isometry3d before_from_now = refined_motion(pairs, by_odometry, ray_sigma);
   first_from_camera_ = first_from_camera_ * before_from_now;
 
   std::vector<Track> continued(features.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    const double off_px = std::abs(epipolar_distance(pairs[i], before_from_now)) * view_.focal_px();
+    const double off_px =
+        std::abs(epipolar_distance(pairs[i], before_from_now)) * camera_.pinhole.focal_px();
     if (off_px > kAgreesPx) continue;
     continued[matches[i].feature].observations = std::move(tracks_[matches[i].track].observations);
   }
@@ -172,7 +177,7 @@ void ScenePointTracker::follow(const std::vector<Feature>& features,
 }
 
 std::vector<ScenePoint> ScenePointTracker::triangulated() const {
-  const double ray_sigma = settings_.pixel_sigma_px / view_.focal_px();
+  const double ray_sigma = settings_.pixel_sigma_px / camera_.pinhole.focal_px();
   const Eigen::Isometry3d camera_from_first = first_from_camera_.inverse();
   std::vector<ScenePoint> points;
   for (const Track& track : tracks_) {

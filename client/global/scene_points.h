@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "client/global/camera_motion.h"
-#include "schema/geo/pinhole.h"
+#include "schema/geo/camera.h"
 
 namespace milepost {
 
@@ -31,7 +31,7 @@ struct ScenePointSettings {
 // that observed it. Not safe to use from several threads at once.
 class ScenePointTracker {
  public:
-  ScenePointTracker(const Pinhole& view, const ScenePointSettings& settings);
+  ScenePointTracker(const Camera& camera, const ScenePointSettings& settings);
 
   // The points observed in the frame; none if it is too near to the last frame used. `motion` is
   // the odometry since the last call. REQUIRES: `gray` is CV_8UC1 and not empty.
@@ -63,7 +63,7 @@ class ScenePointTracker {
   void follow(const std::vector<Feature>& features, const Eigen::Isometry3d& by_odometry);
   std::vector<ScenePoint> triangulated() const;
 
-  Pinhole view_;
+  Camera camera_;
   ScenePointSettings settings_;
   OdometryIncrement since_last_;  // frame that was used
   Eigen::Isometry3d first_from_camera_ = Eigen::Isometry3d::Identity();

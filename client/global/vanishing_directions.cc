@@ -143,9 +143,10 @@ VanishingDirections vanishing_directions(std::span<const LineSegment> segments, 
                     });
 }
 
-VanishingDirections vanishing_directions(const cv::Mat& gray, const Pinhole& view,
+VanishingDirections vanishing_directions(const cv::Mat& gray, const Camera& camera,
                                          const VanishingSettings& settings) {
-  return vanishing_directions(line_segments(gray, settings.min_length_px), view, settings);
+  return vanishing_directions(undistorted(line_segments(gray, settings.min_length_px), camera),
+                              camera.pinhole, settings);
 }
 
 }  // namespace milepost

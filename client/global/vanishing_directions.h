@@ -44,13 +44,13 @@ struct VanishingDirections {
   std::vector<VanishingLine> lines;            // the longest first
 };
 
-// REQUIRES: segments as returned by line_segments(), in pixels of the view.
+// REQUIRES: segments as returned by undistorted(), in pixels of the view.
 VanishingDirections vanishing_directions(std::span<const LineSegment> segments, const Pinhole& view,
                                          const VanishingSettings& settings = {});
 
 // Deterministic, to the bit. Safe to call from several threads at once. REQUIRES: `gray` is CV_8UC1
-// and not empty.
-VanishingDirections vanishing_directions(const cv::Mat& gray, const Pinhole& view,
+// and not empty. The lines are told in pixels of the camera's pinhole.
+VanishingDirections vanishing_directions(const cv::Mat& gray, const Camera& camera,
                                          const VanishingSettings& settings = {});
 
 // Shared with other methods of finding them: The zones of vertical and horizontal directions for a

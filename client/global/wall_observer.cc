@@ -2,12 +2,12 @@
 
 namespace milepost {
 
-WallObserver::WallObserver(const Pinhole& view, const ObserverSettings& settings)
-    : view_(view), settings_(settings), points_(view, settings.points) {}
+WallObserver::WallObserver(const Camera& camera, const ObserverSettings& settings)
+    : camera_(camera), settings_(settings), points_(camera, settings.points) {}
 
 WallObservation WallObserver::observe(const cv::Mat& gray, const OdometryIncrement& motion) {
-  const VanishingDirections directions = vanishing_directions(gray, view_, settings_.vanishing);
-  WallObservation observation{view_sections(directions, view_), {}};
+  const VanishingDirections directions = vanishing_directions(gray, camera_, settings_.vanishing);
+  WallObservation observation{view_sections(directions, camera_.pinhole), {}};
   if (settings_.with_beams) {
     observation.beams =
         beams_of(points_.observe(gray, motion), level_from_camera(directions), settings_.beams);

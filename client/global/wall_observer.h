@@ -9,7 +9,7 @@
 #include "client/global/scene_points.h"
 #include "client/global/vanishing_directions.h"
 #include "client/global/view_sections.h"
-#include "schema/geo/pinhole.h"
+#include "schema/geo/camera.h"
 
 namespace milepost {
 
@@ -28,13 +28,13 @@ struct ObserverSettings {
 // Not safe to use from several threads at once.
 class WallObserver {
  public:
-  WallObserver(const Pinhole& view, const ObserverSettings& settings);
+  WallObserver(const Camera& camera, const ObserverSettings& settings);
 
   // `motion` is the odometry since the last call. REQUIRES: `gray` is CV_8UC1 and not empty.
   WallObservation observe(const cv::Mat& gray, const OdometryIncrement& motion);
 
  private:
-  Pinhole view_;
+  Camera camera_;
   ObserverSettings settings_;
   ScenePointTracker points_;
 };

@@ -92,9 +92,11 @@ double log_likelihood(const LandmarkSupport& support,
   return log_of_sum(terms);
 }
 
+// Whether the frame shows a pixel of the pinhole.
 bool is_inside(const Eigen::Vector2d& pixel, const Camera& camera) {
-  return pixel.x() >= kBorderPx && pixel.x() < camera.width_px - kBorderPx &&
-         pixel.y() >= kBorderPx && pixel.y() < camera.height_px - kBorderPx;
+  const auto shown = camera.image_from_pinhole(pixel);
+  return shown && shown->x() >= kBorderPx && shown->x() < camera.width_px - kBorderPx &&
+         shown->y() >= kBorderPx && shown->y() < camera.height_px - kBorderPx;
 }
 
 // Whether the frame has any feature of about that scale there.

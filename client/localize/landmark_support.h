@@ -8,7 +8,7 @@
 
 #include "client/localize/landmark_matching.h"
 #include "client/localize/pose_solver.h"
-#include "schema/geo/pinhole.h"
+#include "schema/geo/camera.h"
 
 namespace milepost {
 

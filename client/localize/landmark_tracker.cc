@@ -262,7 +262,12 @@ PoseBelief LandmarkTracker::first_belief(double along_m) const {
   PoseBelief belief;
   const EnuPoint at = window_.frame().enu_from_geo(line().point_at(along_m));
   const double heading_rad = line().heading_deg_at(along_m) * kRadPerDeg;
-  belief.x.head<4>() << at.east_m, at.north_m, at.up_m, heading_rad;
+  const Mounting& mounting = search_->camera.mounting;
+  const double mounting_rad = mounting.yaw_deg * kRadPerDeg;
+  belief.x.head<4>() << at.east_m, at.north_m, at.up_m, heading_rad + mounting_rad;
+  belief.x[kPitch] = mounting.pitch_deg * kRadPerDeg;
+  belief.x[kRoll] = mounting.roll_deg * kRadPerDeg;
+  belief.x[kMounting] = mounting_rad;
   belief.x[kSpeed] = method().start_speed_mps;
   const Eigen::Vector2d ahead(std::sin(heading_rad), std::cos(heading_rad));
   const Eigen::Vector2d right(ahead.y(), -ahead.x());

@@ -9,7 +9,7 @@
 #include "client/localize/landmark_window.h"
 #include "client/localize/pose_solver.h"
 #include "client/localize/segment_tracker.h"
-#include "schema/geo/pinhole.h"
+#include "schema/geo/camera.h"
 
 namespace milepost {
 

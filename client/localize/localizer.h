@@ -12,8 +12,8 @@
 #include "client/localize/gnss_fix.h"
 #include "client/localize/localizer_settings.h"
 #include "client/localize/query.h"
+#include "schema/geo/camera.h"
 #include "schema/geo/odometry.h"
-#include "schema/geo/pinhole.h"
 
 namespace milepost {
 

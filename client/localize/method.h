@@ -9,7 +9,7 @@
 #include "client/localize/query.h"
 #include "client/localize/tile_window.h"
 #include "schema/base/result.h"
-#include "schema/geo/pinhole.h"
+#include "schema/geo/camera.h"
 
 namespace milepost {
 

@@ -93,8 +93,8 @@ bool PoseSolver::look(const View& view, const LandmarkMatch& match, Seen& at) co
   at.residual_px = Eigen::Vector2d(feature.x_px, feature.y_px) - view.camera.project(at.seen_m);
   const Eigen::Matrix<double, 2, 3> pixel_by_landmark = at.pixel_by_seen * view.rotation;
   const Eigen::Vector2d along_ray = pixel_by_landmark * landmark.mapping_ray;
-  const double pixel_sigma =
-      std::hypot(settings_.pixel_sigma_px, settings_.pixel_per_scale * feature.scale_px);
+  const double pixel_sigma = std::hypot(settings_.pixel_sigma_px * feature.magnification,
+                                        settings_.pixel_per_scale * feature.scale_px);
   const Eigen::Matrix2d pixel_covariance =
       Eigen::Matrix2d::Identity() * pixel_sigma * pixel_sigma +
       along_ray * along_ray.transpose() * landmark.depth_sigma_m * landmark.depth_sigma_m +

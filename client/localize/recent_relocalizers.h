@@ -7,7 +7,7 @@
 
 #include "client/localize/method.h"
 #include "client/localize/segment_tracker.h"
-#include "schema/geo/pinhole.h"
+#include "schema/geo/camera.h"
 
 namespace milepost {
 

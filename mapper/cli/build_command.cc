@@ -4,10 +4,12 @@
 #include <map>
 #include <thread>
 
+#include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
 #include "mapper/cli/commands.h"
 #include "mapper/codebook/codebook.h"
+#include "mapper/findings/drive_findings.h"
 #include "mapper/pipeline/build_map.h"
 #include "schema/base/digits.h"
 #include "schema/base/output_file.h"
@@ -36,6 +38,8 @@ struct BuildOptions {
   std::string codebook;
   std::vector<double> border_deg;
   std::string beyond;
+  bool dry_run = false;
+  bool json = false;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   BuildSettings settings;
 };
@@ -56,8 +60,10 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
       ->option_text("DIR");
   app.add_option("--map", options.map,
                  "Map file to write; an existing map is replaced on success, any other file never")
-      ->required()
       ->option_text("FILE");
+  app.add_flag("--dry-run", options.dry_run,
+               "Only tell what is wrong with the drives, within seconds, and write nothing");
+  app.add_flag("--json", options.json, "Tell findings and maps on standard output as JSON");
   add_number(app, "--jobs", options.jobs, "N",
              "Threads that extract features; the map is the same for any number", 1, 256);
   app.add_option("--codebook", options.codebook,
@@ -165,7 +171,67 @@ Result<std::optional<Division>> division_of(const BuildOptions& options) {
   return std::optional(Division{std::move(*border), options.beyond});
 }
 
+using Json = nlohmann::ordered_json;
+
+Json json_of(const std::vector<Finding>& findings) {
+  Json all = Json::array();
+  for (const Finding& finding : findings) {
+    all.push_back({{"kind", finding.kind},
+                   {"where", finding.where},
+                   {"line", finding.line},
+                   {"count", finding.count},
+                   {"what", finding.what},
+                   {"hint", finding.hint}});
+  }
+  return all;
+}
+
+Json json_of(const BuildReport& report) {
+  Json all = Json::array();
+  for (const MapReport& map : report.maps) {
+    all.push_back({{"file", map.file.string()},
+                   {"build", map.build},
+                   {"segments", map.segments},
+                   {"length_m", map.length_m},
+                   {"tracklets", map.tracklets},
+                   {"tiles", map.tiles}});
+  }
+  return all;
+}
+
+void tell(const std::string& program, const std::vector<Finding>& findings) {
+  for (const Finding& finding : findings)
+    warn(program, {ErrorCode::invalid_input, finding.place(), finding.what, finding.hint});
+}
+
+// What is wrong with the drives, without mapping them.
+int look(const std::string& program, const std::vector<Drive>& drives,
+         const BuildOptions& options) {
+  Result<std::vector<Finding>> findings = drive_findings(drives, options.jobs);
+  if (!findings) return fail(program, findings.error());
+  const Result<std::vector<Finding>> of_lines = line_findings(drives, options.settings);
+  if (of_lines) findings->insert(findings->end(), of_lines->begin(), of_lines->end());
+  if (options.json) {
+    std::cout << Json{{"findings", json_of(*findings)}, {"maps", Json::array()}}.dump(2) << "\n";
+  } else {
+    tell(program, *findings);
+  }
+  if (!of_lines) return fail(program, of_lines.error());
+  if (options.json) return kExitDone;
+  std::size_t frames = 0;
+  for (const Drive& drive : drives) frames += drive.frames.size();
+  std::cout << drives.size() << (drives.size() == 1 ? " drive, " : " drives, ") << frames
+            << " frames, " << findings->size() << (findings->size() == 1 ? " finding" : " findings")
+            << "; no map was written\n";
+  return kExitDone;
+}
+
 int build(const std::string& program, BuildOptions options) {
+  if (options.map.empty() && !options.dry_run) {
+    fail(program, {ErrorCode::invalid_input, "--map", "is required",
+                   "name the file to write, or give --dry-run"});
+    return kExitWrongCall;
+  }
   if (!options.codebook.empty()) {
     Result<PcaProjection> codebook = read_codebook(options.codebook);
     if (!codebook) return fail(program, codebook.error());
@@ -180,10 +246,14 @@ int build(const std::string& program, BuildOptions options) {
     if (!drive) return fail(program, drive.error());
     drives.push_back(std::move(*drive));
   }
+  catch_stop_signals();
+  if (options.dry_run) return look(program, drives, options);
   if (const Status free = check_maps_are_free(drives, options); !free) {
     return fail(program, free.error());
   }
-  catch_stop_signals();
+  const Result<std::vector<Finding>> before = drive_findings(drives, options.jobs);
+  if (!before) return fail(program, before.error());
+  tell(program, *before);
   cv::setNumThreads(1);  // one frame per thread uses the cores better than many threads per frame
   Result<BuildReport> report = [&] {
     ProgressLine progress;
@@ -195,11 +265,15 @@ int build(const std::string& program, BuildOptions options) {
                      });
   }();
   if (!report) return fail(program, report.error());
-  for (const NetworkFinding& finding : report->findings) {
-    warn(program, {ErrorCode::invalid_input, finding.where, finding.what, finding.hint});
-  }
+  tell(program, report->findings);
   for (const DriveReport& drive : report->drives) {
     if (drive.frames > 0 && drive.tracklets == 0) warn(program, nothing_found(drive));
+  }
+  if (options.json) {
+    std::vector<Finding> findings = *before;
+    findings.insert(findings.end(), report->findings.begin(), report->findings.end());
+    std::cout << Json{{"findings", json_of(findings)}, {"maps", json_of(*report)}}.dump(2) << "\n";
+    return kExitDone;
   }
   for (const MapReport& map : report->maps) std::cout << summary_line(map, report->frames) << "\n";
   return kExitDone;

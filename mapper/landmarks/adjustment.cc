@@ -175,9 +175,10 @@ double solve(std::vector<PoseBlock>& blocks, const std::vector<PoseBlock>& recor
   auto* ordering = new ceres::ParameterBlockOrdering;
   for (TriangulatedTrack& track : tracks) {
     for (const PixelObservation& observation : *track.track) {
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ImageError, 2, 6, 3>(
-                                   new ImageError{observation.pixel, camera, pixel_sigma_px}),
-                               loss, blocks[observation.frame].data(), track.enu_m.data());
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<ImageError, 2, 6, 3>(new ImageError{
+              observation.pixel, camera, pixel_sigma_px * observation.magnification}),
+          loss, blocks[observation.frame].data(), track.enu_m.data());
       loss_used = true;
     }
     ordering->AddElementToGroup(track.enu_m.data(), 0);

@@ -13,6 +13,7 @@ namespace milepost {
 struct PixelObservation {
   std::size_t frame = 0;  // index into the caller's poses
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  double magnification = 1;  // of the pixel's errors, as of a Feature
 };
 
 using FeatureTrack = std::vector<PixelObservation>;  // in the order of frames

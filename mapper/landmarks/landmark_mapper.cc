@@ -5,16 +5,11 @@
 #include <limits>
 #include <optional>
 
+#include "schema/base/median.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
 namespace {
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Median and standard deviation of ln(s * depth / f).
 struct LogSize {
@@ -46,7 +41,8 @@ LandmarkMapper::LandmarkMapper(const Camera& camera, const LandmarkSettings& set
       vehicles_ahead_(settings.vehicles_ahead, camera.pinhole) {}
 
 void LandmarkMapper::add_frame(const Frame& frame, double along_m) {
-  frames_.push_back({along_m, frame.position, frame.heading_deg * kRadPerDeg, 0, 0});
+  frames_.push_back({along_m, frame.position, frame.heading_deg * kRadPerDeg,
+                     frame.pitch_deg * kRadPerDeg, frame.roll_deg * kRadPerDeg});
 }
 
 void LandmarkMapper::add_tracks(const std::vector<Track>& tracks) {
@@ -59,7 +55,8 @@ void LandmarkMapper::add_tracks(const std::vector<Track>& tracks) {
           std::lower_bound(frames_.begin(), frames_.end(), observation.along_m,
                            [](const RecordedPose& pose, double m) { return pose.along_m < m; });
       waiting.observations.push_back({static_cast<std::size_t>(frame - frames_.begin()),
-                                      {observation.feature.x_px, observation.feature.y_px}});
+                                      {observation.feature.x_px, observation.feature.y_px},
+                                      observation.feature.magnification});
       waiting.scales_px.push_back(observation.feature.scale_px);
     }
     if (waiting.observations.size() < 2) continue;

@@ -9,8 +9,8 @@
 #include "mapper/landmarks/triangulation.h"
 #include "mapper/landmarks/vehicles_ahead.h"
 #include "schema/drive/drive.h"
+#include "schema/geo/camera.h"
 #include "schema/geo/geodesy.h"
-#include "schema/geo/pinhole.h"
 #include "schema/tile/observation.h"
 
 namespace milepost {

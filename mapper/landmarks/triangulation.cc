@@ -43,8 +43,9 @@ std::optional<Normal> normal_at(const Eigen::Vector3d& enu_m, const FeatureTrack
     const Eigen::Matrix3d rotation = camera_from_enu(pose);
     const Eigen::Vector3d seen = rotation * (enu_m - pose.enu_m);
     if (!(seen.z() > kNearestSeenM)) return std::nullopt;
-    const Jacobian by_point = camera.projection_jacobian(seen) * rotation;
-    const Eigen::Vector2d residual = observation.pixel - camera.project(seen);
+    const double weight = 1 / observation.magnification;
+    const Jacobian by_point = weight * camera.projection_jacobian(seen) * rotation;
+    const Eigen::Vector2d residual = weight * (observation.pixel - camera.project(seen));
     normal.matrix += by_point.transpose() * by_point;
     normal.gradient += by_point.transpose() * residual;
     normal.squares_px2 += residual.squaredNorm();

@@ -48,8 +48,9 @@ class LineLayer {
   NamedDrivenLines lay() {
     for (std::size_t i = 0; i < drive_.frames.size(); ++i) {
       if (i > 0 && is_pause(i - 1, i)) {
-        tell(i - 1, "a pause of " + metres_text(spacing_m(frame(i - 1), frame(i))) +
-                        " without frames, so no road is laid across it");
+        tell("pause", i - 1,
+             "a pause of " + metres_text(spacing_m(frame(i - 1), frame(i))) +
+                 " without frames, so no road is laid across it");
         finish_line();
       }
       add(i);
@@ -109,13 +110,14 @@ class LineLayer {
   }
 
   void tell_reversing() {
-    tell(vertices_.back(), "the vehicle reversed by " + metres_text(-rearmost_m_) +
-                               ", which is left out of the road");
+    tell(
+        "reversing", vertices_.back(),
+        "the vehicle reversed by " + metres_text(-rearmost_m_) + ", which is left out of the road");
   }
 
-  void tell(std::size_t i, const std::string& what) {
-    found_.findings.push_back(
-        {"drive '" + drive_.name + "', frame " + frame(i).filename, what, ""});
+  void tell(const std::string& kind, std::size_t i, const std::string& what) {
+    found_.findings.push_back({kind, "drive '" + drive_.name + "', frame " + frame(i).filename,
+                               frame(i).line, 1, what, ""});
   }
 
   void finish_line() {

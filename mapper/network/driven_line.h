@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mapper/network/finding.h"
+#include "mapper/findings/finding.h"
 #include "schema/base/result.h"
 #include "schema/drive/drive.h"
 #include "schema/geo/route_line.h"
@@ -38,7 +38,7 @@ struct DrivenLineSettings {
 struct NamedDrivenLines {
   std::string name;  // of the drive
   std::vector<DrivenLine> lines;
-  std::vector<NetworkFinding> findings;  // pauses and reversing, in driving order
+  std::vector<Finding> findings;  // pauses and reversing, in driving order
 };
 
 // Errors: invalid_input for a name that is not a segment id, and for a drive that does not move.

@@ -53,15 +53,18 @@ long begin_of(const Piece& piece, const Way& way) {
   return std::lround(way.begin_m + piece.from_m);
 }
 
-NetworkFinding finding_of(const StackedPieces& stacked, const std::vector<Way>& ways,
-                          const std::vector<NamedDrivenLines>& drives) {
+Finding finding_of(const StackedPieces& stacked, const std::vector<Way>& ways,
+                   const std::vector<NamedDrivenLines>& drives) {
   const auto place_of = [&](const Piece& piece) {
     const Way& way = ways[piece.way];
     return "drive '" + drives[way.drive].name + "' from metre " +
            std::to_string(begin_of(piece, way));
   };
   return {
+      "stacked_roads",
       place_of(stacked.lower.front()) + " and " + place_of(stacked.upper.front()),
+      0,
+      stacked.lower.size(),
       "they run over " +
           std::to_string(std::lround(stacked.lower.front().to_m - stacked.lower.front().from_m)) +
           " m in one place, and no drive changes between them: " +

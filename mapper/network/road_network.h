@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "mapper/findings/finding.h"
 #include "mapper/network/alignment.h"
 #include "mapper/network/driven_line.h"
-#include "mapper/network/finding.h"
 #include "mapper/network/junctions.h"
 #include "mapper/network/same_road.h"
 #include "mapper/network/stacked_roads.h"
@@ -44,7 +44,7 @@ struct NetworkSegment {
 struct RoadNetwork {
   std::vector<NetworkSegment> segments;  // sorted by id
   // Those of the drives in the order of their names, then those of the network.
-  std::vector<NetworkFinding> findings;
+  std::vector<Finding> findings;
 };
 
 struct NetworkSettings {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mapper/network/finding.h"
+#include "mapper/findings/finding.h"
 #include "mapper/pipeline/divided_map.h"
 #include "mapper/pipeline/settings.h"
 #include "schema/base/result.h"
@@ -30,9 +30,9 @@ struct DriveReport {
 };
 
 struct BuildReport {
-  std::vector<MapReport> maps;           // one, or one on either side of the border
-  std::vector<DriveReport> drives;       // by name
-  std::vector<NetworkFinding> findings;  // about the drives and their network
+  std::vector<MapReport> maps;      // one, or one on either side of the border
+  std::vector<DriveReport> drives;  // by name
+  std::vector<Finding> findings;    // about the drives and their network
   std::size_t frames = 0;
 };
 

@@ -7,8 +7,6 @@
 #include "mapper/pipeline/pass_choice.h"
 #include "mapper/pipeline/pass_comparison.h"
 #include "mapper/pipeline/recordings.h"
-#include "mapper/pipeline/rounded_positions.h"
-#include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
@@ -22,18 +20,6 @@ Result<std::vector<const Drive*>> by_name(const std::vector<Drive>& drives) {
   if (twice == sorted.end()) return sorted;
   return Error{ErrorCode::invalid_input, "drive '" + (*twice)->name + "'",
                "two drives have this name", "give each drive.json a name of its own"};
-}
-
-void add_rounding_findings(const std::vector<const Drive*>& drives,
-                           std::vector<NetworkFinding>& findings) {
-  for (const Drive* drive : drives) {
-    const double step_m = rounding_step_m(*drive);
-    if (step_m == 0) continue;
-    findings.push_back({"drive '" + drive->name + "'",
-                        "its positions are rounded to " + fixed(step_m, 2) +
-                            " m, which the map's position error counts",
-                        "export them with more digits"});
-  }
 }
 
 StoredSegment stored_segment(const NetworkSegment& segment, const RouteLine& line,
@@ -119,6 +105,19 @@ std::vector<FusedSegment> fused_segments(const std::vector<DrivePlan>& drives,
   return fused;
 }
 
+Result<std::vector<NamedDrivenLines>> lines_of(const std::vector<const Drive*>& drives,
+                                               const BuildSettings& settings) {
+  DrivenLineSettings driven;
+  driven.min_frame_spacing_m = settings.min_frame_spacing_m;
+  std::vector<NamedDrivenLines> lines;
+  for (const Drive* drive : drives) {
+    Result<NamedDrivenLines> of_drive = driven_lines(*drive, driven);
+    if (!of_drive) return of_drive.error();
+    lines.push_back(std::move(*of_drive));
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::size_t DrivePlan::frames() const {
@@ -127,21 +126,27 @@ std::size_t DrivePlan::frames() const {
   return count;
 }
 
+Result<std::vector<Finding>> line_findings(const std::vector<Drive>& drives,
+                                           const BuildSettings& settings) {
+  const Result<std::vector<const Drive*>> sorted = by_name(drives);
+  if (!sorted) return sorted.error();
+  std::vector<Finding> findings;
+  const auto lines = lines_of(without_copies(*sorted, findings), settings);
+  if (!lines) return lines.error();
+  for (const NamedDrivenLines& of_drive : *lines)
+    findings.insert(findings.end(), of_drive.findings.begin(), of_drive.findings.end());
+  return findings;
+}
+
 Result<BuildPlan> plan_build(const std::vector<Drive>& drives, const BuildSettings& settings,
                              int jobs) {
   const Result<std::vector<const Drive*>> sorted = by_name(drives);
   if (!sorted) return sorted.error();
   BuildPlan plan;
   const std::vector<const Drive*> kept = without_copies(*sorted, plan.findings);
-  add_rounding_findings(kept, plan.findings);
-  std::vector<NamedDrivenLines> lines;
-  for (const Drive* drive : kept) {
-    DrivenLineSettings driven;
-    driven.min_frame_spacing_m = settings.min_frame_spacing_m;
-    Result<NamedDrivenLines> of_drive = driven_lines(*drive, driven);
-    if (!of_drive) return of_drive.error();
-    lines.push_back(std::move(*of_drive));
-  }
+  Result<std::vector<NamedDrivenLines>> laid = lines_of(kept, settings);
+  if (!laid) return laid.error();
+  std::vector<NamedDrivenLines>& lines = *laid;
   PassFrames frames(kept, lines, jobs);
   PassChoice choice(frames, settings);
   PassComparison comparison(frames, settings);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mapper/network/finding.h"
+#include "mapper/findings/finding.h"
 #include "mapper/network/road_network.h"
 #include "mapper/pipeline/settings.h"
 #include "mapper/pipeline/stretch_plan.h"
@@ -37,12 +37,17 @@ struct FusedSegment {
 };
 
 struct BuildPlan {
-  std::vector<DrivePlan> drives;         // by name
-  std::vector<StoredSegment> segments;   // by id
-  std::vector<FusedSegment> fused;       // the same segments
-  std::set<std::string> beyond_border;   // ids of the segments right of the border
-  std::vector<NetworkFinding> findings;  // about the drives and their network
+  std::vector<DrivePlan> drives;        // by name
+  std::vector<StoredSegment> segments;  // by id
+  std::vector<FusedSegment> fused;      // the same segments
+  std::set<std::string> beyond_border;  // ids of the segments right of the border
+  std::vector<Finding> findings;        // about the drives and their network
 };
+
+// About the drives' ways alone, before they are made a network: copies of one recording, pauses,
+// reversing. Errors: as plan_build, but for images.
+Result<std::vector<Finding>> line_findings(const std::vector<Drive>& drives,
+                                           const BuildSettings& settings);
 
 // The plan does not depend on the order of the drives. REQUIRES: the drives outlive it. Errors:
 // invalid_input (two drives of one name, a name that is not an id, a drive that does not move);

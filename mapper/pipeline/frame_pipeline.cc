@@ -16,6 +16,7 @@ struct FramePipeline::Impl {
   // Constant after construction.
   const FrameReader reader;
   const std::vector<std::size_t> frame_indices;
+  const Camera camera;
   const FeatureParameters parameters;
   const bool images;
   const std::size_t look_ahead;
@@ -35,6 +36,7 @@ struct FramePipeline::Impl {
        bool with_images, int count)
       : reader(from),
         frame_indices(std::move(indices)),
+        camera(from.camera),
         parameters(with),
         images(with_images),
         look_ahead(2 * static_cast<std::size_t>(count)) {}
@@ -59,7 +61,7 @@ struct FramePipeline::Impl {
   }
 
   void work() {
-    FeatureExtractor extractor(parameters);
+    FeatureExtractor extractor(parameters, camera);
     while (const auto position = start_one()) {
       const Result<cv::Mat> gray = reader.gray(frame_indices[*position]);
       Result<ExtractedFrame> frame = gray ? extract(*gray, extractor) : gray.error();

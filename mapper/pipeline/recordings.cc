@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "mapper/pipeline/rounded_positions.h"
+#include "mapper/findings/rounded_positions.h"
 #include "schema/base/file.h"
 #include "schema/geo/geodesy.h"
 
@@ -192,7 +192,7 @@ std::vector<double> factors_of(const PlannedStretch& stretch, const SlowErrorSet
 }  // namespace
 
 std::vector<const Drive*> without_copies(const std::vector<const Drive*>& drives,
-                                         std::vector<NetworkFinding>& findings) {
+                                         std::vector<Finding>& findings) {
   std::vector<const Drive*> by_length = drives;
   std::ranges::stable_sort(by_length, std::ranges::greater(),
                            [](const Drive* drive) { return drive->frames.size(); });
@@ -205,7 +205,7 @@ std::vector<const Drive*> without_copies(const std::vector<const Drive*>& drives
       continue;
     }
     findings.push_back(
-        {"drive '" + drive->name + "'",
+        {"copied_drive", "drive '" + drive->name + "'", 0, drive->frames.size(),
          "its frames are those of drive '" + (*original)->name + "', so it is left out",
          "a recording that is given twice tells nothing new"});
   }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "mapper/findings/finding.h"
 #include "mapper/fusion/slow_errors.h"
-#include "mapper/network/finding.h"
 #include "mapper/pipeline/build_plan.h"
 #include "schema/drive/drive.h"
 
@@ -14,7 +14,7 @@ namespace milepost {
 // places. Of two equal drives the one of the first name stays. Adds a finding for each that goes.
 // REQUIRES: drives by name.
 std::vector<const Drive*> without_copies(const std::vector<const Drive*>& drives,
-                                         std::vector<NetworkFinding>& findings);
+                                         std::vector<Finding>& findings);
 
 // What the plan's drives state of their errors, and which are bound to be the same: those of drives
 // that name one group, and of cameras on one vehicle, which are in nearly one place at each time.

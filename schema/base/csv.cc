@@ -10,14 +10,63 @@
 namespace milepost {
 namespace {
 
-std::vector<std::string> split(std::string_view line) {
-  std::vector<std::string> cells;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    cells.emplace_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+// Removes a cell from the front of `line`, with the separator after it, if there is one. A quoted
+// cell may hold separators, and quotes written twice. Nothing if a quote is not closed.
+std::optional<std::string> take_cell(std::string_view& line, char separator, bool& is_last) {
+  const std::size_t first = line.find_first_not_of(' ');
+  std::string cell;
+  std::size_t end = 0;
+  if (first != std::string_view::npos && line[first] == '"') {
+    std::size_t at = first + 1;
+    for (;; ++at) {
+      if (at >= line.size()) return std::nullopt;
+      if (line[at] != '"') {
+        cell += line[at];
+      } else if (at + 1 < line.size() && line[at + 1] == '"') {
+        cell += line[at++];
+      } else {
+        break;
+      }
+    }
+    end = line.find(separator, at);
+  } else {
+    end = line.find(separator);
+    cell = trimmed(line.substr(0, end));
   }
+  is_last = end == std::string_view::npos;
+  line.remove_prefix(is_last ? line.size() : end + 1);
+  return cell;
+}
+
+// Nothing if a quote is not closed.
+std::optional<std::vector<std::string>> split(std::string_view line, char separator) {
+  std::vector<std::string> cells;
+  for (bool is_last = false; !is_last;) {
+    std::optional<std::string> cell = take_cell(line, separator, is_last);
+    if (!cell) return std::nullopt;
+    cells.push_back(std::move(*cell));
+  }
+  return cells;
+}
+
+// As spreadsheets write tables: where the comma separates decimals, a semicolon or a tab separates
+// cells.
+char separator_of(std::string_view header) {
+  for (const char separator : {',', ';', '\t'})
+    if (header.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+Error unclosed_quote(const std::filesystem::path& path, std::size_t line) {
+  return {ErrorCode::invalid_input, path.string() + ", line " + std::to_string(line),
+          "a quote is not closed", "write each row on one line"};
 }
 
 std::string joined(const std::vector<std::string>& cells) {
@@ -44,11 +93,19 @@ Result<CsvTable> CsvTable::read(const std::filesystem::path& path,
   if (!content) return content.error();
   std::string_view text = *content;
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    return Error{ErrorCode::invalid_input, path.string(), "is a table in UTF-16",
+                 "save it as CSV in UTF-8"};
+  }
 
   CsvTable table;
   table.path_ = path;
   table.columns_ = columns;
-  const std::vector<std::string> header = split(take_line(text));
+  const std::string_view first_line = take_line(text);
+  table.separator_ = separator_of(first_line);
+  const auto split_header = split(first_line, table.separator_);
+  if (!split_header) return unclosed_quote(path, 1);
+  const std::vector<std::string>& header = *split_header;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i >= header.size() || header[i] != columns[i]) {
       const std::string found = i < header.size() ? "'" + header[i] + "'" : "missing";
@@ -68,8 +125,10 @@ Result<CsvTable> CsvTable::read(const std::filesystem::path& path,
   }
   for (std::size_t line = 2; !text.empty(); ++line) {
     const std::string_view row = take_line(text);
-    if (row.empty()) continue;
-    const std::vector<std::string> cells = split(row);
+    if (trimmed(row).empty()) continue;
+    const auto split_row = split(row, table.separator_);
+    if (!split_row) return unclosed_quote(path, line);
+    const std::vector<std::string>& cells = *split_row;
     const std::size_t needed = cell_of.back() + 1;
     if (cells.size() < needed) {
       return Error{
@@ -92,9 +151,13 @@ std::optional<std::size_t> CsvTable::column(const std::string& name) const {
 
 Result<double> CsvTable::number(std::size_t row, std::size_t column) const {
   const std::string& cell = rows_[row][column];
+  std::string digits = cell;
+  if (digits.starts_with('+')) digits.erase(0, 1);
+  if (separator_ != ',' && digits.find('.') == std::string::npos)
+    std::ranges::replace(digits, ',', '.');  // a decimal comma
   double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) {
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
     return Error{ErrorCode::invalid_input, place(row),
                  columns_[column] + " is '" + cell + "', not a finite number",
                  "correct or remove the row"};

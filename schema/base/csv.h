@@ -1,4 +1,4 @@
-// CSV tables without quoting, the format of drives and fixes.
+// CSV tables, the format of drives and fixes, also as spreadsheets write them.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,9 @@
 
 namespace milepost {
 
-// A table in memory. Lines are numbered as in an editor: the header is line 1.
+// A table in memory. Lines are numbered as in an editor: the header is line 1. Cells are separated
+// by commas; or, if the header has none, by semicolons or tabs, and then numbers may have a decimal
+// comma. Cells may be quoted, on one line; blanks around a cell that is not are left out.
 class CsvTable {
  public:
   // Reads a file whose header starts with `columns`, in that order. Of the columns that follow,
@@ -34,6 +36,7 @@ class CsvTable {
 
  private:
   std::filesystem::path path_;
+  char separator_ = ',';
   std::vector<std::string> columns_;
   std::vector<std::vector<std::string>> rows_;
   std::vector<std::size_t> lines_;

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "schema/base/digits.h"
+#include "schema/base/median.h"
 
 namespace milepost {
 namespace {
@@ -35,7 +36,22 @@ Status check_time(double timestamp_s, const double* previous_s, const RowPlaces&
                  "sort the rows by time, without repeated times");
 }
 
-// The error of the first row of `readings` with an invalid time, or ok.
+// Recorders that write ms, us or ns look like very slow ones.
+Status check_unit_of_time(std::vector<double> intervals_s, const std::string& file) {
+  constexpr std::size_t kFewest = 4;
+  constexpr double kSlowestS = 30;
+  if (intervals_s.size() < kFewest) return ok_status();
+  const double median_s = median_of(std::move(intervals_s));
+  if (median_s < kSlowestS) return ok_status();
+  const char* unit = median_s < 1000 * kSlowestS  ? "milliseconds"
+                     : median_s < 1e6 * kSlowestS ? "microseconds"
+                                                  : "nanoseconds";
+  return invalid(file,
+                 "rows lie " + fixed(median_s, 0) + " s apart (median), as of times in " + unit,
+                 "give timestamp_s in seconds");
+}
+
+// The error of the first row of `readings` with an invalid time, or of all times, or ok.
 template <class Reading>
 Status check_times(const std::vector<Reading>& readings, const RowPlaces& rows) {
   for (std::size_t row = 0; row < readings.size(); ++row) {
@@ -43,7 +59,10 @@ Status check_times(const std::vector<Reading>& readings, const RowPlaces& rows) 
     Status status = check_time(readings[row].timestamp_s, previous_s, rows, row);
     if (!status) return status;
   }
-  return ok_status();
+  std::vector<double> intervals_s;
+  for (std::size_t row = 1; row < readings.size(); ++row)
+    intervals_s.push_back(readings[row].timestamp_s - readings[row - 1].timestamp_s);
+  return check_unit_of_time(std::move(intervals_s), rows.file);
 }
 
 // Whether `name` is a file name without path that an unquoted table can hold.
@@ -104,6 +123,25 @@ Status check_jump(const std::vector<Frame>& frames, const RowPlaces& rows, std::
                  "correct the positions or the times, or split the drive there");
 }
 
+Status check_mounting(const Mounting& mounting, const std::string& where) {
+  constexpr double kMaxLeverM = 50;
+  for (const auto& [name, metres] : {std::pair{"forward_m", mounting.forward_m},
+                                     {"right_m", mounting.right_m},
+                                     {"up_m", mounting.up_m}}) {
+    if (std::abs(metres) <= kMaxLeverM) continue;
+    return invalid(where, std::string("mounting.") + name + " is " + shortest(metres),
+                   "give metres from the vehicle's reference point to its camera, -50 to 50");
+  }
+  for (const auto& [name, degrees, most_deg] : {std::tuple{"yaw_deg", mounting.yaw_deg, 180.0},
+                                                {"pitch_deg", mounting.pitch_deg, 80.0},
+                                                {"roll_deg", mounting.roll_deg, 180.0}}) {
+    if (std::abs(degrees) <= most_deg) continue;
+    return invalid(where, std::string("mounting.") + name + " is " + shortest(degrees),
+                   "give degrees within " + shortest(most_deg));
+  }
+  return ok_status();
+}
+
 }  // namespace
 
 Status check_camera(const Camera& camera, const std::string& where) {
@@ -120,7 +158,7 @@ Status check_camera(const Camera& camera, const std::string& where) {
     return invalid(where, "camera.principal_px is not finite",
                    "give the image's centre, in pixels");
   }
-  return ok_status();
+  return check_mounting(camera.mounting, where);
 }
 
 Status check_images_folder(const std::string& images, const std::string& where) {
@@ -153,6 +191,10 @@ Status check_frames(const std::vector<Frame>& frames, const RowPlaces& rows) {
   if (Status status = check_filenames(frames, rows); !status) return status;
   if (Status status = check_times(frames, rows); !status) return status;
   for (std::size_t row = 0; row < frames.size(); ++row) {
+    if (!(std::abs(frames[row].pitch_deg) <= 80 && std::abs(frames[row].roll_deg) <= 180)) {
+      return invalid(rows.place(row), "pitch_deg or roll_deg is out of range",
+                     "give degrees: pitch upwards, -80 to 80, and roll, -180 to 180");
+    }
     if (!std::isfinite(frames[row].heading_deg)) {
       return invalid(rows.place(row), "heading_deg is not a finite number",
                      "correct or remove the row");

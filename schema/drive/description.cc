@@ -1,6 +1,7 @@
 #include "schema/drive/description.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -34,8 +35,8 @@ class KeyReader {
     return member(parent, key, "an object", &Json::is_object);
   }
 
-  std::string text(const Json& parent, const std::string& key) {
-    const Json& value = member(parent, key, "a string", &Json::is_string);
+  std::string text(const Json& parent, const std::string& key, const std::string& prefix = "") {
+    const Json& value = member(parent, key, "a string", &Json::is_string, prefix);
     return value.is_string() ? value.get<std::string>() : "";
   }
 
@@ -71,11 +72,20 @@ class KeyReader {
     return {value[0].get<double>(), value[1].get<double>()};
   }
 
-  void fail(const std::string& key, const std::string& what) {
-    if (status_) {
-      status_ = Error{ErrorCode::invalid_input, file_, key + " " + what,
-                      "correct it as the drive format describes"};
+  // Keys of an object in which a misspelt one would change what is measured.
+  void only(const Json& object, const std::vector<std::string>& known, const std::string& prefix) {
+    if (!object.is_object()) return;
+    std::string all;
+    for (const std::string& key : known) all += (all.empty() ? "" : ", ") + key;
+    for (const auto& [key, value] : object.items()) {
+      if (std::ranges::find(known, key) == known.end())
+        fail(prefix + key, "is not known", "write one of " + all);
     }
+  }
+
+  void fail(const std::string& key, const std::string& what,
+            const std::string& hint = "correct it as the drive format describes") {
+    if (status_) status_ = Error{ErrorCode::invalid_input, file_, key + " " + what, hint};
   }
 
   const Status& status() const { return status_; }
@@ -103,9 +113,68 @@ class KeyReader {
   Status status_;
 };
 
+using MountingKey = std::pair<const char*, double Mounting::*>;
+constexpr std::array<MountingKey, 6> kMountingKeys = {{{"forward_m", &Mounting::forward_m},
+                                                       {"right_m", &Mounting::right_m},
+                                                       {"up_m", &Mounting::up_m},
+                                                       {"yaw_deg", &Mounting::yaw_deg},
+                                                       {"pitch_deg", &Mounting::pitch_deg},
+                                                       {"roll_deg", &Mounting::roll_deg}}};
+
+Lens lens_of(KeyReader& keys, const Json& camera) {
+  const std::string prefix = "camera.distortion.";
+  if (!camera.is_object() || !camera.contains("distortion")) return {};
+  if (!camera["distortion"].is_object()) {
+    keys.fail("camera.distortion", "is not an object",
+              R"(write {"model": "brown-conrady", "k1": ..., "k2": ..., "p1": ..., "p2": ..., )"
+              R"("k3": ...} or {"model": "kannala-brandt", "k1": ... to "k4": ...})");
+    return {};
+  }
+  const Json& object = camera["distortion"];
+  const std::string name = keys.text(object, "model", prefix);
+  const std::optional<LensModel> model = lens_model_named(name);
+  if (!model) {
+    keys.fail(prefix + "model", "is '" + name + "'",
+              "write brown-conrady, kannala-brandt (fisheye) or pinhole");
+    return {};
+  }
+  std::vector<double> coefficients;
+  std::vector<std::string> known = {"model"};
+  for (const std::string& coefficient : coefficient_names(*model)) {
+    known.push_back(coefficient);
+    coefficients.push_back(object.contains(coefficient) ? keys.number(object, prefix, coefficient)
+                                                        : 0);
+  }
+  keys.only(object, known, prefix);
+  const Result<Lens> lens = Lens::make(*model, std::move(coefficients));
+  if (!lens) {
+    keys.fail("camera.distortion:", lens.error().what, lens.error().hint);
+    return {};
+  }
+  return *lens;
+}
+
+Mounting mounting_of(KeyReader& keys, const Json& root) {
+  Mounting mounting;
+  if (!root.is_object() || !root.contains("mounting")) return mounting;
+  const Json& object = keys.object(root, "mounting");
+  if (!object.is_object()) return mounting;
+  const std::string prefix = "mounting.";
+  std::vector<std::string> known;
+  for (const auto& [key, value] : kMountingKeys) {
+    known.emplace_back(key);
+    if (object.contains(key)) mounting.*value = keys.number(object, prefix, key);
+  }
+  keys.only(object, known, prefix);
+  return mounting;
+}
+
 Camera camera_of(KeyReader& keys, const Json& root) {
   const Json& object = keys.object(root, "camera");
+  keys.only(object, {"width_px", "height_px", "focal_px", "principal_px", "distortion"}, "camera.");
   Camera camera;
+  camera.lens = lens_of(keys, object);
+  camera.mounting = mounting_of(keys, root);
   camera.width_px = keys.side_px(object, "width_px");
   camera.height_px = keys.side_px(object, "height_px");
   Pinhole& pinhole = camera.pinhole;
@@ -113,6 +182,13 @@ Camera camera_of(KeyReader& keys, const Json& root) {
   std::tie(pinhole.principal_x_px, pinhole.principal_y_px) =
       keys.number_pair(object, "principal_px");
   return camera;
+}
+
+OrderedJson distortion_of(const Lens& lens) {
+  OrderedJson json = {{"model", name_of(lens.model())}};
+  const std::vector<std::string>& names = coefficient_names(lens.model());
+  for (std::size_t i = 0; i < names.size(); ++i) json[names[i]] = lens.coefficients()[i];
+  return json;
 }
 
 PositionFrame read_frame(KeyReader& keys, const Json& root) {
@@ -198,6 +274,10 @@ Result<std::string> description_text(const Drive& drive) {
                     {"height_px", camera.height_px},
                     {"focal_px", {pinhole.focal_x_px, pinhole.focal_y_px}},
                     {"principal_px", {pinhole.principal_x_px, pinhole.principal_y_px}}};
+  if (!camera.lens.is_pinhole()) root["camera"]["distortion"] = distortion_of(camera.lens);
+  if (!camera.mounting.is_at_reference_point()) {
+    for (const auto& [key, value] : kMountingKeys) root["mounting"][key] = camera.mounting.*value;
+  }
   if (drive.position_frame == PositionFrame::local) {
     root["frame"] = "local";
     root["origin"] = {{"latitude_deg", drive.origin->latitude_deg},

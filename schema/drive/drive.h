@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/geo/camera.h"
 #include "schema/geo/geodesy.h"
 #include "schema/geo/odometry.h"
-#include "schema/geo/pinhole.h"
 
 namespace milepost {
 
@@ -18,6 +18,8 @@ struct Frame {
   double timestamp_s = 0;
   GeoPoint position;       // of the camera
   double heading_deg = 0;  // of the camera, clockwise from north, [0, 360) when read
+  double pitch_deg = 0;    // of the camera, upwards; of a level vehicle where it is not recorded
+  double roll_deg = 0;     // the same, clockwise as seen by the driver
   std::size_t line = 0;    // of trajectory.csv, for messages; 0 when the frame was not read
   std::optional<double> position_sigma_m = {};  // stated for this frame, as below
 };
@@ -48,6 +50,7 @@ struct Drive {
   std::string licence;
   std::string source;
   StatedPositionError position_error;
+  bool has_tilts = false;          // whether the frames' pitch and roll are recorded
   std::vector<Frame> frames;       // timestamps ascend strictly; all state a sigma or none
   std::vector<GpsFix> gps;         // empty without gps.csv; timestamps ascend strictly
   std::vector<Odometry> odometry;  // empty without odometry.csv; the same

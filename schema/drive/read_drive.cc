@@ -49,28 +49,49 @@ Result<GeoPoint> position_from_local(const LocalFrame& frame, const EnuPoint& en
   return frame.geo_from_enu(enu);
 }
 
-// The frames of trajectory.csv, before they are checked.
+// REQUIRES: `of` is the frame's as it was recorded.
+void set_attitude(const GeoAttitude& of, Frame& frame) {
+  frame.position = of.position;
+  frame.heading_deg = wrapped_360(of.heading_deg);
+  frame.pitch_deg = of.pitch_deg;
+  frame.roll_deg = of.roll_deg;
+}
+
+// The frames of trajectory.csv, of the reference point, before they are checked.
 Result<std::vector<Frame>> frames_of(const CsvTable& table, const Drive& drive) {
   std::optional<LocalFrame> local;
   if (drive.origin) local.emplace(*drive.origin);
   const std::optional<std::size_t> sigma_column = table.column(kPositionSigmaColumn);
+  const std::optional<std::size_t> pitch_column = table.column(kPitchColumn);
+  const std::optional<std::size_t> roll_column = table.column(kRollColumn);
   std::vector<Frame> frames;
   for (std::size_t row = 0; row < table.row_count(); ++row) {
     const Result<std::vector<double>> values = numbers(table, row, 1, kLocalColumns.size());
     if (!values) return values.error();
     const std::vector<double>& v = *values;
-    Frame frame{table.text(row, 0), v[0], {v[1], v[2], v[3]}, v[4], table.line(row)};
+    Frame frame;
+    frame.filename = table.text(row, 0);
+    frame.timestamp_s = v[0];
+    frame.line = table.line(row);
+    GeoAttitude recorded{{v[1], v[2], v[3]}, v[4]};
     if (sigma_column) {
       const Result<double> sigma_m = table.number(row, *sigma_column);
       if (!sigma_m) return sigma_m.error();
       frame.position_sigma_m = *sigma_m;
     }
+    for (const auto& [column, angle] :
+         {std::pair{pitch_column, &recorded.pitch_deg}, {roll_column, &recorded.roll_deg}}) {
+      if (!column) continue;
+      const Result<double> degrees = table.number(row, *column);
+      if (!degrees) return degrees.error();
+      *angle = *degrees;
+    }
     if (local) {
       const auto position = position_from_local(*local, {v[1], v[2], v[3]}, table.place(row));
       if (!position) return position.error();
-      frame.position = *position;
+      recorded.position = *position;
     }
-    frame.heading_deg = wrapped_360(frame.heading_deg);
+    set_attitude(recorded, frame);
     frames.push_back(std::move(frame));
   }
   return frames;
@@ -91,14 +112,21 @@ Status check_images_exist(const Drive& drive, const RowPlaces& rows) {
 Status read_trajectory(Drive& drive) {
   const fs::path file = drive.folder / kTrajectoryFile;
   const bool is_local = drive.position_frame == PositionFrame::local;
-  const auto table =
-      CsvTable::read(file, is_local ? kLocalColumns : kGeographicColumns, {kPositionSigmaColumn});
+  const auto table = CsvTable::read(file, is_local ? kLocalColumns : kGeographicColumns,
+                                    {kPositionSigmaColumn, kPitchColumn, kRollColumn});
   if (!table) return table.error();
   Result<std::vector<Frame>> frames = frames_of(*table, drive);
   if (!frames) return frames.error();
   drive.frames = std::move(frames).value();
   const RowPlaces rows = places_of(*table, file);
   if (Status status = check_frames(drive.frames, rows); !status) return status;
+  drive.has_tilts = table->column(kPitchColumn) || table->column(kRollColumn);
+  for (Frame& frame : drive.frames) {
+    set_attitude(
+        camera_of_vehicle({frame.position, frame.heading_deg, frame.pitch_deg, frame.roll_deg},
+                          drive.camera.mounting),
+        frame);
+  }
   return check_images_exist(drive, rows);
 }
 

@@ -14,7 +14,10 @@ inline const std::vector<std::string> kLocalColumns = {"filename", "timestamp_s"
                                                        "north_m",  "up_m",        "heading_deg"};
 inline const std::vector<std::string> kGeographicColumns = {
     "filename", "timestamp_s", "latitude_deg", "longitude_deg", "altitude_m", "heading_deg"};
-inline const std::string kPositionSigmaColumn = "position_sigma_m";  // further, of the trajectory
+// Further ones of the trajectory.
+inline const std::string kPositionSigmaColumn = "position_sigma_m";
+inline const std::string kPitchColumn = "pitch_deg";
+inline const std::string kRollColumn = "roll_deg";
 inline const std::vector<std::string> kGpsColumns = {"timestamp_s", "latitude_deg", "longitude_deg",
                                                      "sigma_m"};
 inline const std::vector<std::string> kOdometryColumns = {"timestamp_s", "speed_mps",

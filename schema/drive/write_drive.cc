@@ -30,22 +30,29 @@ std::string trajectory_text(const Drive& drive) {
   std::vector<std::string> columns = is_local ? kLocalColumns : kGeographicColumns;
   const bool states_sigma = !drive.frames.empty() && drive.frames.front().position_sigma_m;
   if (states_sigma) columns.push_back(kPositionSigmaColumn);
+  if (drive.has_tilts) columns.insert(columns.end(), {kPitchColumn, kRollColumn});
   CsvText csv(header_of(columns));
   for (const Frame& frame : drive.frames) {
     csv.cell(frame.filename);
     csv.exact(frame.timestamp_s);
+    const GeoAttitude recorded =
+        vehicle_of_camera({frame.position, frame.heading_deg, frame.pitch_deg, frame.roll_deg},
+                          drive.camera.mounting);
     if (local) {
-      const EnuPoint enu = local->enu_from_geo(frame.position);
+      const EnuPoint enu = local->enu_from_geo(recorded.position);
       csv.rounded(enu.east_m, kMetreDecimals);
       csv.rounded(enu.north_m, kMetreDecimals);
       csv.rounded(enu.up_m, kMetreDecimals);
     } else {
-      csv.rounded(frame.position.latitude_deg, kGeoDecimals);
-      csv.rounded(frame.position.longitude_deg, kGeoDecimals);
-      csv.rounded(frame.position.altitude_m, kMetreDecimals);
+      csv.rounded(recorded.position.latitude_deg, kGeoDecimals);
+      csv.rounded(recorded.position.longitude_deg, kGeoDecimals);
+      csv.rounded(recorded.position.altitude_m, kMetreDecimals);
     }
-    csv.rounded(frame.heading_deg, kAngleDecimals);
+    csv.rounded(recorded.heading_deg, kAngleDecimals);
     if (states_sigma) csv.exact(frame.position_sigma_m.value_or(0));
+    if (drive.has_tilts) {
+      csv.rounded(recorded.pitch_deg, kAngleDecimals).rounded(recorded.roll_deg, kAngleDecimals);
+    }
     csv.end_row();
   }
   return csv.text();

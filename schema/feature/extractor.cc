@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -35,17 +36,30 @@ double brightness_of(const cv::Mat& gray) {
   return std::clamp(bright / kBright, kLeastBrightness, 1.0);
 }
 
+std::optional<Feature> feature_of(const cv::KeyPoint& keypoint, const Camera& camera) {
+  const Feature found{keypoint.pt.x - kEnlargedShiftPx, keypoint.pt.y - kEnlargedShiftPx,
+                      keypoint.size};
+  if (camera.lens.is_pinhole()) return found;
+  const auto undistorted = camera.pinhole_from_image({found.x_px, found.y_px});
+  if (!undistorted) return std::nullopt;
+  const auto magnification = static_cast<float>(undistorted->magnification);
+  const Eigen::Vector2f at = undistorted->pinhole_px.cast<float>();
+  return Feature{at.x(), at.y(), found.scale_px * magnification, magnification};
+}
+
 }  // namespace
 
 struct FeatureExtractor::Impl {
   FeatureParameters parameters;
+  Camera camera;
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
 };
 
-FeatureExtractor::FeatureExtractor(const FeatureParameters& parameters)
+FeatureExtractor::FeatureExtractor(const FeatureParameters& parameters, const Camera& camera)
     : impl_(std::make_unique<Impl>()) {
   impl_->parameters = parameters;
+  impl_->camera = camera;
 }
 
 FeatureExtractor::~FeatureExtractor() = default;
@@ -61,12 +75,12 @@ FeatureSet FeatureExtractor::extract(const cv::Mat& gray) {
   sift->detectAndCompute(gray, cv::noArray(), impl_->keypoints, impl_->descriptors);
   FeatureSet set;
   set.features.reserve(impl_->keypoints.size());
-  set.descriptors.resize(impl_->keypoints.size());
+  set.descriptors.reserve(impl_->keypoints.size());
   for (std::size_t i = 0; i < impl_->keypoints.size(); ++i) {
-    const cv::KeyPoint& keypoint = impl_->keypoints[i];
-    set.features.push_back(
-        {keypoint.pt.x - kEnlargedShiftPx, keypoint.pt.y - kEnlargedShiftPx, keypoint.size});
-    std::memcpy(set.descriptors[i].data(), impl_->descriptors.ptr(static_cast<int>(i)),
+    const std::optional<Feature> feature = feature_of(impl_->keypoints[i], impl_->camera);
+    if (!feature) continue;
+    set.features.push_back(*feature);
+    std::memcpy(set.descriptors.emplace_back().data(), impl_->descriptors.ptr(static_cast<int>(i)),
                 kDescriptorBytes);
   }
   return set;

@@ -12,11 +12,13 @@
 
 namespace milepost {
 
-// A keypoint in pixels of its frame: x to the right, y down, from the centre of the top left pixel.
+// A keypoint in pixels of the camera's pinhole: x to the right, y down, from the centre of the top
+// left pixel of its frame.
 struct Feature {
   float x_px = 0;
   float y_px = 0;
-  float scale_px = 0;  // diameter of the meaningful neighbourhood, > 0
+  float scale_px = 0;       // diameter of the meaningful neighbourhood, > 0
+  float magnification = 1;  // pixels of the pinhole per pixel of the frame: its errors grow by it
 };
 
 // The features of one frame with one descriptor each.

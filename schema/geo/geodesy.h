@@ -8,6 +8,7 @@
 namespace milepost {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180;
+inline constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 struct GeoPoint {
   double latitude_deg = 0;   // [-90, 90], WGS84

@@ -1,4 +1,4 @@
-// The pinhole camera model, without distortion, and the image size (FRAMES.md 7).
+// The pinhole camera model (FRAMES.md 7).
 #pragma once
 
 #include <cmath>
@@ -41,14 +41,6 @@ struct Pinhole {
   }
 
   friend bool operator==(const Pinhole&, const Pinhole&) = default;
-};
-
-struct Camera {
-  int width_px = 0;
-  int height_px = 0;
-  Pinhole pinhole = {};
-
-  friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 }  // namespace milepost

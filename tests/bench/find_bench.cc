@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   if (!drive) return fail(drive.error());
   GlobalLocalizerSettings settings;
   if (argc > 3) settings.particles = std::strtoul(argv[3], nullptr, 10);
-  GlobalLocalizer localizer(footprints->walls, drive->camera.pinhole, settings);
+  GlobalLocalizer localizer(footprints->walls, drive->camera, settings);
 
   cv::setNumThreads(1);
   const auto segments = cv::createLineSegmentDetector();

@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   const auto sift =
       cv::SIFT::create(feature.max_features, feature.octave_layers, feature.contrast_threshold,
                        feature.edge_threshold, feature.sigma);
-  FeatureExtractor extractor(feature);
+  FeatureExtractor extractor(feature, query->camera);
   FeatureSet features;
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;

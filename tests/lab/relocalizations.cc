@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
     const auto relocalizer =
         method.make_relocalizer(segment->layer, drive->camera, MethodSettings());
     if (!relocalizer) return fail(relocalizer.error());
-    FeatureExtractor extractor(segment->layer->feature());
+    FeatureExtractor extractor(segment->layer->feature(), drive->camera);
     for (std::size_t i = 0; i < drive->frames.size(); i += every) {
       const Result<cv::Mat> gray = frames.gray(i);
       if (!gray) return fail(gray.error());

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "mapper/pipeline/rounded_positions.h"
+#include "mapper/findings/rounded_positions.h"
 #include "tests/mapper/noise_drive.h"
 #include "tests/support/temp_folder.h"
 
@@ -40,10 +40,10 @@ class Recordings : public ::testing::Test {
     return drive;
   }
   static std::vector<std::string> kept(const std::vector<Drive>& drives,
-                                       std::vector<NetworkFinding>* findings = nullptr) {
+                                       std::vector<Finding>* findings = nullptr) {
     std::vector<const Drive*> given;
     for (const Drive& drive : drives) given.push_back(&drive);
-    std::vector<NetworkFinding> found;
+    std::vector<Finding> found;
     std::vector<std::string> names;
     for (const Drive* drive : without_copies(given, found)) names.push_back(drive->name);
     if (findings != nullptr) *findings = found;
@@ -70,7 +70,7 @@ class Recordings : public ::testing::Test {
 
 TEST_F(Recordings, ACopyIsLeftOutWithAFinding) {
   const Drive original = drive("a", 1);
-  std::vector<NetworkFinding> findings;
+  std::vector<Finding> findings;
   EXPECT_THAT(kept({original, named(original, "b"), drive("c", 3)}, &findings),
               ElementsAre("a", "c"));
   ASSERT_EQ(findings.size(), 1U);

@@ -13,6 +13,7 @@
 
 #include "schema/base/output_file.h"
 #include "schema/command/command.h"
+#include "schema/drive/checks.h"
 #include "tests/simulator/aerial.h"
 #include "tests/simulator/city.h"
 #include "tests/simulator/city_graph.h"
@@ -58,6 +59,10 @@ struct Options {
   std::uint64_t seed = 1;
   std::vector<int> size_px = {600, 500};
   std::vector<double> view_deg = {80, 64};
+  std::string lens = "pinhole";
+  std::vector<double> distortion;
+  std::vector<double> mounting;
+  bool record_tilts = false;
   double map_spacing_m = 2;
   PositionErrors errors;
   bool city = false;
@@ -94,6 +99,21 @@ void add_options(CLI::App& app, Options& options) {
       ->expected(2)
       ->check(CLI::Range(5.0, 150.0))
       ->option_text("H V");
+  app.add_option("--lens", options.lens,
+                 "pinhole, brown-conrady or kannala-brandt; --view-deg is of a pinhole of the same "
+                 "focal length (default pinhole)")
+      ->check(CLI::IsMember({"pinhole", "brown-conrady", "kannala-brandt"}))
+      ->option_text("MODEL");
+  app.add_option("--distortion", options.distortion,
+                 "Its coefficients in OpenCV's order: k1 k2 p1 p2 k3 ..., or k1 k2 k3 k4")
+      ->expected(1, 8)
+      ->option_text("K...");
+  app.add_option("--mounting", options.mounting,
+                 "The camera's place on its vehicle: metres forward, to the right and up of the "
+                 "reference point, whose positions are recorded; degrees of yaw, pitch and roll")
+      ->expected(6)
+      ->option_text("F R U YAW PITCH ROLL");
+  app.add_flag("--record-tilts", options.record_tilts, "Record the vehicle's pitch and roll");
   add_number(app, "--map-spacing-m", options.map_spacing_m, "M",
              "Distance between the frames of the map drives", 0.1, 100);
   add_number(app, "--position-noise-m", options.errors.noise_m, "M",
@@ -115,7 +135,8 @@ void add_options(CLI::App& app, Options& options) {
       ->option_text("N");
 }
 
-Camera camera_of(const Options& options) {
+// A pinhole.
+Camera plain_camera_of(const Options& options) {
   const auto focal = [](int pixels, double view_deg) {
     return pixels / 2.0 / std::tan(view_deg * CV_PI / 360);
   };
@@ -128,6 +149,20 @@ Camera camera_of(const Options& options) {
           height,
           {focal(width, options.view_deg[0]), focal(height, options.view_deg[1]), width / 2.0,
            height / 2.0}};
+}
+
+// Errors: invalid_input (a lens that is none).
+Result<Camera> camera_of(const Options& options) {
+  Camera camera = plain_camera_of(options);
+  Result<Lens> lens = Lens::make(*lens_model_named(options.lens), options.distortion);
+  if (!lens) {
+    return Error{ErrorCode::invalid_input, "--distortion", lens.error().what, lens.error().hint};
+  }
+  camera.lens = std::move(*lens);
+  if (const std::vector<double>& m = options.mounting; !m.empty())
+    camera.mounting = {m[0], m[1], m[2], m[3], m[4], m[5]};
+  if (const Status status = check_camera(camera, "--mounting"); !status) return status.error();
+  return camera;
 }
 
 template <class T>
@@ -150,6 +185,8 @@ Result<std::vector<RunPlan>> chosen_runs(const Options& options, const std::vect
       }
     }
   }
+  const Result<Camera> camera = camera_of(options);
+  if (!camera) return camera.error();
   std::vector<RunPlan> runs;
   const bool is_any = options.routes.empty() && options.drives.empty();
   for (RunPlan run : all) {
@@ -157,7 +194,8 @@ Result<std::vector<RunPlan>> chosen_runs(const Options& options, const std::vect
         is_any ? options.city || is_driven_by_default(run.route)
                : holds(options.routes, run.route) || holds(options.drives, run.name);
     if (!is_chosen) continue;
-    run.camera = camera_of(options);
+    run.camera = *camera;
+    run.records_tilts = options.record_tilts;
     if (run.spacing_m > 0) {  // the mapping drive
       run.spacing_m = options.map_spacing_m;
       run.errors = options.errors;

@@ -9,8 +9,6 @@
 
 namespace milepost::simulator {
 
-inline constexpr double kDegPerRad = 180 / std::numbers::pi;
-
 // A smooth lateral displacement.
 struct LaneChange {
   double from_m = 0;  // along the route

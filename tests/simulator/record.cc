@@ -12,6 +12,7 @@
 #include "schema/base/digest.h"
 #include "tests/simulator/kept_frames.h"
 #include "tests/simulator/lane_columns.h"
+#include "tests/simulator/lens_view.h"
 #include "tests/simulator/paint.h"
 #include "tests/simulator/parallel.h"
 #include "tests/simulator/position_errors.h"
@@ -32,7 +33,8 @@ constexpr double kPositionMemoryM = 15;  // correlation length of position noise
 struct Shot {
   double time_s = 0;
   double along_m = 0;
-  Pose pose;
+  Pose pose;                 // of the vehicle's reference point
+  Pose camera;               // the same, if it is not mounted elsewhere
   cv::Vec2d position_error;  // of the written position
   PoseError error;           // a further one
   std::uint64_t seed = 0;    // of the picture's noise
@@ -57,6 +59,20 @@ std::vector<double> frame_times(const Motion& motion, const RunPlan& run, cv::RN
   return times;
 }
 
+// A pose moved by a transform of its own frame.
+Pose moved(const Pose& from, const Eigen::Isometry3d& from_to) {
+  const CameraPose pose = {{from.position[0], from.position[1], from.position[2]},
+                           from.heading_deg * kRadPerDeg,
+                           from.pitch_deg * kRadPerDeg,
+                           from.roll_deg * kRadPerDeg};
+  const CameraPose to = pose_of(enu_from_camera(pose) * from_to);
+  return {{to.enu_m.x(), to.enu_m.y(), to.enu_m.z()},
+          to.heading_rad * kDegPerRad,
+          to.pitch_rad * kDegPerRad,
+          to.roll_rad * kDegPerRad};
+}
+
+// Of the vehicle's reference point, which is where the camera is if it is not mounted elsewhere.
 Pose pose_at(const Network& network, const Motion& motion, const RunPlan& run, double along_m,
              cv::RNG& random) {
   constexpr double kHalfBaseM = 1.3;
@@ -86,6 +102,9 @@ std::vector<Shot> plan_shots(const Network& network, const Motion& motion, const
     shot.time_s = time;
     shot.along_m = motion.along_m_at(time);
     shot.pose = pose_at(network, motion, run, shot.along_m, random);
+    shot.camera = run.camera.mounting.is_at_reference_point()
+                      ? shot.pose
+                      : moved(shot.pose, vehicle_from_camera(run.camera.mounting));
     const double kept = std::exp(-(shot.along_m - last_m) / kPositionMemoryM);
     last_m = shot.along_m;
     for (int i = 0; i < 2; ++i) {
@@ -163,8 +182,12 @@ std::string digest_of_frames(const Town& town, const RunPlan& run, const std::ve
         run.light.sun_elevation_deg}) {
     add(value);
   }
+  if (!run.camera.lens.is_pinhole()) {
+    add(name_of(run.camera.lens.model()));
+    for (const double coefficient : run.camera.lens.coefficients()) add(coefficient);
+  }
   for (const Shot& shot : shots) {
-    const Pose& pose = shot.pose;
+    const Pose& pose = shot.camera;
     for (const double value : {shot.time_s, shot.along_m, pose.position[0], pose.position[1],
                                pose.position[2], pose.heading_deg, pose.pitch_deg, pose.roll_deg}) {
       add(value);
@@ -187,6 +210,14 @@ Drive described(const Town& town, const RunPlan& run) {
   return drive;
 }
 
+// As the reader of the drive makes it, for the writer to write what was recorded.
+Frame frame_of(const std::string& filename, double time_s, GeoAttitude vehicle,
+               const Drive& drive) {
+  if (!drive.has_tilts) vehicle.pitch_deg = vehicle.roll_deg = 0;
+  const GeoAttitude camera = camera_of_vehicle(vehicle, drive.camera.mounting);
+  return {filename, time_s, camera.position, camera.heading_deg, camera.pitch_deg, camera.roll_deg};
+}
+
 Status write_tables(const Town& town, const RunPlan& run, const Motion& motion,
                     const std::vector<Shot>& shots, const fs::path& folder) {
   Drive drive = described(town, run);
@@ -195,8 +226,11 @@ Status write_tables(const Town& town, const RunPlan& run, const Motion& motion,
     const Point written = shot.pose.position +
                           Point(shot.position_error[0], shot.position_error[1], 0) +
                           shot.error.position;
-    drive.frames.push_back({frame_name(i), shot.time_s, geo_from_point(written),
-                            wrapped_360(shot.pose.heading_deg + shot.error.heading_deg)});
+    const GeoAttitude vehicle{geo_from_point(written),
+                              wrapped_360(shot.pose.heading_deg + shot.error.heading_deg),
+                              shot.pose.pitch_deg, shot.pose.roll_deg};
+    drive.has_tilts = run.records_tilts;
+    drive.frames.push_back(frame_of(frame_name(i), shot.time_s, vehicle, drive));
   }
   cv::RNG random = seeded(~run.seed);  // independent of the pictures' noise
   if (run.has_receiver) drive.gps = receive(motion, *town.sky_view, random);
@@ -239,12 +273,13 @@ Status record(const Town& town, const Lighting& lighting, const RunPlan& run,
   const Motion motion = motion_of(town, run);
   const Traffic traffic(town.network, run);
   const std::vector<Shot> shots = plan_shots(town.network, motion, run);
+  const LensView lens(run.camera);
   if (Status status = forget_frames(folder); !status) return status;
   Status status = for_each_in_parallel(shots.size(), threads, progress, [&](std::size_t i) {
     const Shot& shot = shots[i];
     cv::RNG random = seeded(shot.seed);
-    const cv::Mat picture =
-        render(town.scene, lighting, run.camera, shot.pose, traffic.at(shot.time_s, shot.along_m));
+    const cv::Mat picture = lens.shown(render(town.scene, lighting, lens.pinhole(), shot.camera,
+                                              traffic.at(shot.time_s, shot.along_m)));
     return write_image(images / frame_name(i), sensed(picture, run.image_noise, random));
   });
   if (status && run.keeps_frames) {

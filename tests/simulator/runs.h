@@ -43,11 +43,12 @@ struct RunPlan {
   double image_noise = 2;  // standard deviation, in grey levels
   bool has_truck_ahead = false;
   bool has_oncoming = false;
-  bool has_receiver = false;  // writes gps.csv, 1 Hz
-  bool has_odometer = false;  // writes odometry.csv, 10 Hz
-  bool keeps_frames = false;  // does not render again what is in the folder already
-  bool states_lanes = false;  // in the further columns `road` and `lane` of trajectory.csv
-  std::uint64_t seed = 1;     // of everything random in the run
+  bool has_receiver = false;   // writes gps.csv, 1 Hz
+  bool has_odometer = false;   // writes odometry.csv, 10 Hz
+  bool keeps_frames = false;   // does not render again what is in the folder already
+  bool records_tilts = false;  // pitch and roll, in further columns of trajectory.csv
+  bool states_lanes = false;   // in the further columns `road` and `lane` of trajectory.csv
+  std::uint64_t seed = 1;      // of everything random in the run
 };
 
 // Frames by time, some of them late or lost, from a camera that shakes and whose pictures are

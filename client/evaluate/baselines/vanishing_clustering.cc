@@ -50,10 +50,10 @@ VanishingDirections clustered_vanishing_directions(std::span<const LineSegment> 
                     });
 }
 
-VanishingDirections clustered_vanishing_directions(const cv::Mat& gray, const Pinhole& view,
+VanishingDirections clustered_vanishing_directions(const cv::Mat& gray, const Camera& camera,
                                                    const VanishingSettings& settings) {
-  return clustered_vanishing_directions(line_segments(gray, settings.min_length_px), view,
-                                        settings);
+  return clustered_vanishing_directions(
+      undistorted(line_segments(gray, settings.min_length_px), camera), camera.pinhole, settings);
 }
 
 }  // namespace milepost

@@ -10,7 +10,7 @@ namespace milepost {
 VanishingDirections clustered_vanishing_directions(std::span<const LineSegment> segments,
                                                    const Pinhole& view,
                                                    const VanishingSettings& settings = {});
-VanishingDirections clustered_vanishing_directions(const cv::Mat& gray, const Pinhole& view,
+VanishingDirections clustered_vanishing_directions(const cv::Mat& gray, const Camera& camera,
                                                    const VanishingSettings& settings = {});
 
 }  // namespace milepost

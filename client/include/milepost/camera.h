@@ -7,8 +7,8 @@ namespace milepost::vehicle {
 
 enum class LensModel {
   pinhole,        // no distortion
-  brown_conrady,  // radial and tangential: k1 k2 p1 p2 k3 ..., in OpenCV's order
-  kannala_brandt  // fisheye: k1 k2 k3 k4
+  brown_conrady,  // radial and tangential: k1 k2 p1 p2 k3 k4 k5 k6, in OpenCV's order
+  kannala_brandt  // fisheye: k1 k2 k3 k4, as OpenCV's
 };
 
 // Pose of the camera relative to the vehicle's reference point, in the axes of the vehicle: forward
@@ -32,7 +32,7 @@ struct Camera {
   double focal_y_px = 0;  // above 0
   double principal_x_px = 0;
   double principal_y_px = 0;
-  std::vector<double> distortion = {};  // coefficients of the lens model; empty or all 0: none
+  std::vector<double> distortion = {};  // of the lens model; those left out are 0
   Mounting mounting = {};
 };
 

@@ -69,8 +69,8 @@ struct GlobalLocalizerSettings {
 class MILEPOST_PUBLIC GlobalLocalizer {
  public:
   // Reads the walls from the cache, the server or the map file. Blocks, within `patience`.
-  // Errors: invalid_input, unsupported (a lens with distortion), not_found (no map with walls, no
-  // walls in the area), unavailable, corrupt, io; timed_out, cancelled.
+  // Errors: invalid_input, not_found (no map with walls, no walls in the area), unavailable,
+  // corrupt, io; timed_out, cancelled.
   static Result<GlobalLocalizer> open(const Source& source, const Camera& camera,
                                       const GlobalLocalizerSettings& settings = {},
                                       const Patience& patience = {});

@@ -86,8 +86,8 @@ struct LocalizerSettings {
 class MILEPOST_PUBLIC Localizer {
  public:
   // Reads no map data yet and does not wait for a server.
-  // Errors: invalid_input (a value out of range, an invalid URL, not a map file), unsupported (a
-  // lens with distortion), not_found, corrupt, io (the map file, the cache directory).
+  // Errors: invalid_input (a value out of range, an invalid URL, a lens that is none, not a map
+  // file), not_found, corrupt, io (the map file, the cache directory).
   static Result<Localizer> open(const Source& source, const Camera& camera,
                                 const LocalizerSettings& settings = {});
   // Returns within a second, even if the server hangs.

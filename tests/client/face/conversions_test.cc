@@ -46,17 +46,27 @@ TEST(CheckCamera, RefusesWhatIsOutOfRange) {
   EXPECT_TRUE(refused([&](Camera& camera) { camera.mounting.up_m = nothing; }));
 }
 
-TEST(CheckCamera, WhatIsNotSupportedIsAnErrorAndNotIgnored) {
+TEST(CheckCamera, RefusesALensThatIsNone) {
   Camera camera = sound_camera();
-  camera.lens = LensModel::brown_conrady;
-  camera.distortion = {0, 0, 0, 1e-4};
-  EXPECT_EQ(check_camera(camera).error().code, ErrorCode::unsupported);
-  camera = sound_camera();
-  camera.distortion = {0.1};
-  EXPECT_EQ(check_camera(camera).error().code, ErrorCode::unsupported);
-  camera = sound_camera();
+  camera.distortion = {0.1};  // of a pinhole
+  EXPECT_EQ(check_camera(camera).error().code, ErrorCode::invalid_input);
   camera.lens = LensModel::kannala_brandt;
-  EXPECT_EQ(check_camera(camera).error().code, ErrorCode::unsupported);
+  EXPECT_TRUE(check_camera(camera).ok());
+  camera.distortion = {0.1, 0, 0, 0, 0};
+  EXPECT_EQ(check_camera(camera).error().code, ErrorCode::invalid_input);
+}
+
+TEST(PlainCamera, HasTheLensAndTheMounting) {
+  Camera camera = sound_camera();
+  EXPECT_TRUE(plain_camera_of(camera).lens.is_pinhole());
+  camera.lens = LensModel::brown_conrady;
+  camera.distortion = {-0.2, 0.03, 0, 1e-4};
+  camera.mounting = {.forward_m = 1.2, .yaw_deg = 3};
+  const milepost::Camera plain = plain_camera_of(camera);
+  EXPECT_EQ(plain.lens, *Lens::make(milepost::LensModel::brown_conrady, camera.distortion));
+  EXPECT_EQ(plain.mounting, (milepost::Mounting{.forward_m = 1.2, .yaw_deg = 3}));
+  camera.lens = LensModel::kannala_brandt;
+  EXPECT_EQ(plain_camera_of(camera).lens.model(), milepost::LensModel::kannala_brandt);
 }
 
 TEST(OpenSource, NamesWhatIsWrong) {

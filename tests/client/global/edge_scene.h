@@ -17,6 +17,7 @@
 namespace milepost::testing {
 
 inline constexpr Pinhole kEdgeView{600, 600, 320, 240};
+inline const Camera kEdgeCamera{640, 480, kEdgeView};
 
 inline Eigen::Matrix3d turn(double deg, const Eigen::Vector3d& axis) {
   return Eigen::AngleAxisd(deg * kRadPerDeg, axis).toRotationMatrix();

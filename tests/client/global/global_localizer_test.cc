@@ -13,7 +13,7 @@
 namespace milepost {
 namespace {
 
-using testing::kView;
+using testing::kCamera;
 using testing::kWallM;
 
 const GeoPoint kPlace{49, 8.4, 0};
@@ -55,7 +55,7 @@ PlanBox box_around(const ParticleSet& particles) {
 }
 
 TEST(GlobalLocalizer, HasTheWallsInMetresAboutTheirMiddle) {
-  const GlobalLocalizer localizer(kWalls, kView, {});
+  const GlobalLocalizer localizer(kWalls, kCamera, {});
   EXPECT_LT(geodesic_distance_m(localizer.origin(), kPlace), 0.01);
   EXPECT_EQ(localizer.origin().altitude_m, 0);
   ASSERT_EQ(localizer.walls().walls().size(), 2U);
@@ -68,7 +68,7 @@ TEST(GlobalLocalizer, HasTheWallsInMetresAboutTheirMiddle) {
 TEST(GlobalLocalizer, TheMiddleOfWallsOnBothSidesOf180IsBetweenThem) {
   const std::vector<Wall> walls = {{{-16.5, 179.999}, {-16.4999, 179.999}, 0.3},
                                    {{-16.5, -179.997}, {-16.4999, -179.997}, 0.3}};
-  const GlobalLocalizer localizer(walls, kView, {});
+  const GlobalLocalizer localizer(walls, kCamera, {});
   EXPECT_LT(geodesic_distance_m(localizer.origin(), {-16.49995, -179.999, 0}), 0.01);
   const PlanBox box = localizer.walls().bounds();
   EXPECT_NEAR((box.max_m - box.min_m).x(), 0.004 * 106756, 1);
@@ -77,7 +77,7 @@ TEST(GlobalLocalizer, TheMiddleOfWallsOnBothSidesOf180IsBetweenThem) {
 TEST(GlobalLocalizer, WithoutAnyIdeaItLooksAboutAllWalls) {
   GlobalLocalizerSettings settings;
   settings.particles = 4000;
-  GlobalLocalizer localizer(kWalls, kView, settings);
+  GlobalLocalizer localizer(kWalls, kCamera, settings);
   EXPECT_EQ(localizer.particles().size(), 4000U);
   const PlanBox box = box_around(localizer.particles());
   EXPECT_NEAR(box.min_m.x(), -110, 1);
@@ -97,7 +97,7 @@ TEST(GlobalLocalizer, LooksInTheAreaThatIsGiven) {
   const GeoPoint north_east = beside(50, 10);
   settings.area = Bounds{south_west.longitude_deg, south_west.latitude_deg,
                          north_east.longitude_deg, north_east.latitude_deg};
-  const GlobalLocalizer localizer(kWalls, kView, settings);
+  const GlobalLocalizer localizer(kWalls, kCamera, settings);
   const PlanBox box = box_around(localizer.particles());
   EXPECT_NEAR(box.min_m.x(), -30, 1);
   EXPECT_NEAR(box.max_m.x(), 50, 1);
@@ -109,7 +109,7 @@ TEST(GlobalLocalizer, LooksInTheAreaThatIsGiven) {
 TEST(GlobalLocalizer, AKnownStartFarFromTheWallsIsInTheArea) {
   GlobalLocalizerSettings settings = starting_at(-150, 20, 1);
   settings.method = orientations_method();
-  GlobalLocalizer localizer(kWalls, kView, settings);
+  GlobalLocalizer localizer(kWalls, kCamera, settings);
   localizer.find(blank(), 0);
   localizer.observe({0, 4, 0});
   localizer.find(blank(), 1);
@@ -121,14 +121,14 @@ TEST(GlobalLocalizer, AKnownStartFarFromTheWallsIsInTheArea) {
 TEST(GlobalLocalizer, ItsSeedDecides) {
   GlobalLocalizerSettings settings;
   const Eigen::Vector2d first =
-      GlobalLocalizer(kWalls, kView, settings).particles().front().pose.enu_m;
-  EXPECT_EQ(GlobalLocalizer(kWalls, kView, settings).particles().front().pose.enu_m, first);
+      GlobalLocalizer(kWalls, kCamera, settings).particles().front().pose.enu_m;
+  EXPECT_EQ(GlobalLocalizer(kWalls, kCamera, settings).particles().front().pose.enu_m, first);
   settings.seed = 2;
-  EXPECT_NE(GlobalLocalizer(kWalls, kView, settings).particles().front().pose.enu_m, first);
+  EXPECT_NE(GlobalLocalizer(kWalls, kCamera, settings).particles().front().pose.enu_m, first);
 }
 
 TEST(GlobalLocalizer, WithoutMeasurementsItFollowsOdometry) {
-  GlobalLocalizer localizer(kWalls, kView, starting_at(-60, 20, 1));
+  GlobalLocalizer localizer(kWalls, kCamera, starting_at(-60, 20, 1));
   localizer.find(blank(), 100);
   for (int i = 0; i < 10; ++i) {
     localizer.observe({100 + 0.5 * i, 8, 0});
@@ -154,7 +154,7 @@ TEST(GlobalLocalizer, IsAsUnsureAsItsStartAtLeast) {
   const auto first_fix = [](double sigma_m, double heading_sigma_deg) {
     GlobalLocalizerSettings settings = starting_at(0, 0, sigma_m);
     settings.start->heading_sigma_deg = heading_sigma_deg;
-    return GlobalLocalizer(kWalls, kView, settings).find(blank(), 0);
+    return GlobalLocalizer(kWalls, kCamera, settings).find(blank(), 0);
   };
   EXPECT_NEAR(first_fix(1.5, 4).sigma_m, std::hypot(1.5, 0.5), 0.1);
   EXPECT_NEAR(first_fix(1.5, 4).heading_sigma_deg, std::hypot(4, 0.5), 0.3);
@@ -166,7 +166,7 @@ TEST(GlobalLocalizer, IsAsUnsureAsItsStartAtLeast) {
 TEST(GlobalLocalizer, AHeadingIsFrom0To360) {
   GlobalLocalizerSettings settings = starting_at(0, 0, 1);
   settings.start->heading_deg = -30;
-  EXPECT_NEAR(GlobalLocalizer(kWalls, kView, settings).find(blank(), 0).heading_deg, 330, 2);
+  EXPECT_NEAR(GlobalLocalizer(kWalls, kCamera, settings).find(blank(), 0).heading_deg, 330, 2);
 }
 
 // Straight towards a wall with odometry that overestimates the distance: it is found, predicted
@@ -180,7 +180,7 @@ TEST(GlobalLocalizer, FindsItselfBeforeAWall) {
   const GeoPoint north_east = beside(40, 0);
   settings.area = Bounds{south_west.longitude_deg, south_west.latitude_deg,
                          north_east.longitude_deg, north_east.latitude_deg};
-  GlobalLocalizer localizer(across, kView, settings);
+  GlobalLocalizer localizer(across, kCamera, settings);
   const cv::Mat painted = testing::painted_wall();
   GlobalPoseEstimate fix;
   int frame = 0;
@@ -200,7 +200,7 @@ TEST(GlobalLocalizer, FindsItselfBeforeAWall) {
 TEST(GlobalLocalizer, AStartWithoutAHeadingMayLookAnywhere) {
   GlobalLocalizerSettings settings = starting_at(10, 20, 2);
   settings.start->heading_deg = std::nullopt;
-  const GlobalLocalizer localizer(kWalls, kView, settings);
+  const GlobalLocalizer localizer(kWalls, kCamera, settings);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const Particle& particle : localizer.particles()) {
     sum += direction_of(particle.pose.heading_rad);

@@ -3,11 +3,12 @@
 
 #include <opencv2/core.hpp>
 
-#include "schema/geo/pinhole.h"
+#include "schema/geo/camera.h"
 
 namespace milepost::testing {
 
 inline constexpr Pinhole kView{360, 360, 300, 250};
+inline const Camera kCamera{600, 500, kView};
 inline constexpr double kWallM = 14;  // distance in front of the first camera
 
 // A wall with upright rectangles of all sizes, 60 m wide and 40 m high.

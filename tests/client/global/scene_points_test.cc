@@ -12,6 +12,7 @@
 namespace milepost {
 namespace {
 
+using testing::kCamera;
 using testing::kView;
 using testing::kWallM;
 using testing::painted_wall;
@@ -31,7 +32,7 @@ std::vector<double> ahead_of(const std::vector<ScenePoint>& points) {
 
 TEST(ScenePoints, StandAsFarAsTheWallIs) {
   const cv::Mat wall = painted_wall();
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   EXPECT_TRUE(tracker.observe(seen(wall, 0, 0), {}).empty());
   // Odometry missed some of the turn.
   tracker.observe(seen(wall, 1, 0.02), {0.2, 1, 0.015});
@@ -53,7 +54,7 @@ TEST(ScenePoints, StandAsFarAsTheWallIs) {
 
 TEST(ScenePoints, AWallNearbyIsSeenToo) {
   const cv::Mat wall = painted_wall();
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   tracker.observe(seen(wall, kWallM - 4, 0), {});
   tracker.observe(seen(wall, kWallM - 3.5, 0), {0.2, 0.5, 0});
   const auto points = tracker.observe(seen(wall, kWallM - 3, 0), {0.2, 0.5, 0});
@@ -63,7 +64,7 @@ TEST(ScenePoints, AWallNearbyIsSeenToo) {
 
 TEST(ScenePoints, ShortStepsAddUp) {
   const cv::Mat wall = painted_wall();
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   tracker.observe(seen(wall, 0, 0), {});
   std::size_t most = 0;
   for (int i = 1; i <= 4; ++i) {
@@ -75,7 +76,7 @@ TEST(ScenePoints, ShortStepsAddUp) {
 // Points that come into view are tracked from there on.
 TEST(ScenePoints, ATurnOnTheSpotBringsNewPoints) {
   const cv::Mat wall = painted_wall();
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   tracker.observe(seen(wall, 0, -1.2), {});
   for (int i = 11; i >= 0; --i) tracker.observe(seen(wall, 0, -0.1 * i), {0.2, 0, 0.1});
   const auto points = tracker.observe(seen(wall, 1, 0), {0.2, 1, 0});
@@ -93,7 +94,7 @@ TEST(ScenePoints, WhatLooksAlikeIsSeldomMistaken) {
     }
   }
   cv::GaussianBlur(wall, wall, {0, 0}, 1.5);
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   tracker.observe(seen(wall, 0, 0), {});
   const auto points = tracker.observe(seen(wall, 2, 0), {0.2, 2, 0});
   int wrong = 0;
@@ -107,7 +108,7 @@ TEST(ScenePoints, WhatLooksAlikeIsSeldomMistaken) {
 // Longer than the distance to the nearest points that are searched.
 TEST(ScenePoints, LongStepsAreFollowed) {
   const cv::Mat wall = painted_wall();
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   tracker.observe(seen(wall, 0, 0), {});
   EXPECT_GT(tracker.observe(seen(wall, 3, 0), {0.2, 3, 0}).size(), 100U);
 }
@@ -116,7 +117,7 @@ TEST(ScenePoints, LongStepsAreFollowed) {
 TEST(ScenePoints, WhatMovesIsLeftOut) {
   const cv::Mat wall = painted_wall();
   const cv::Mat patch = wall(cv::Rect(700, 300, 150, 150));
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   std::vector<ScenePoint> points;
   for (int frame = 0; frame < 2; ++frame) {
     cv::Mat image = seen(wall, frame, 0);
@@ -134,7 +135,7 @@ TEST(ScenePoints, WhatMovesIsLeftOut) {
 
 TEST(ScenePoints, StandingStillTellsNothing) {
   const cv::Mat wall = painted_wall();
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   tracker.observe(seen(wall, 0, 0), {});
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(tracker.observe(seen(wall, 0, 0), {0.2, 0.01, 0}).empty());
@@ -148,7 +149,7 @@ TEST(ScenePoints, StandingStillTellsNothing) {
 TEST(ScenePoints, AFrameWithoutFeaturesIsDrivenOver) {
   const cv::Mat wall = painted_wall();
   const cv::Mat grey(500, 600, CV_8UC1, cv::Scalar(90));
-  ScenePointTracker tracker(kView, {});
+  ScenePointTracker tracker(kCamera, {});
   tracker.observe(seen(wall, 0, 0), {});
   EXPECT_TRUE(tracker.observe(grey, {0.2, 1, 0}).empty());
   EXPECT_TRUE(tracker.observe(seen(wall, 2, 0), {0.2, 1, 0}).empty());

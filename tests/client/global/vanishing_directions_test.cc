@@ -14,6 +14,7 @@
 namespace milepost {
 namespace {
 
+using testing::kEdgeCamera;
 using testing::kEdgeView;
 using testing::level_direction;
 using testing::nearest_deg;
@@ -101,7 +102,7 @@ TEST(VanishingDirections, TurningTheImageTurnsTheDirections) {
        {turn(0, Eigen::Vector3d::UnitZ()), turn(10, Eigen::Vector3d::UnitZ()),
         turn(-10, Eigen::Vector3d::UnitZ()), turn(8, Eigen::Vector3d::UnitX()),
         turn(-8, Eigen::Vector3d::UnitX())}) {
-    const VanishingDirections found = vanishing_directions(seen_turned(image, turned), kEdgeView);
+    const VanishingDirections found = vanishing_directions(seen_turned(image, turned), kEdgeCamera);
     EXPECT_LT(nearest_deg(found, turned * Eigen::Vector3d::UnitY(), Orientation::vertical), 0.5)
         << turned;
     for (const double azimuth_deg : {50.0, -40.0}) {
@@ -118,9 +119,39 @@ TEST(VanishingDirections, TurningTheImageTurnsTheDirections) {
   }
 }
 
+// The image through a lens.
+cv::Mat seen_through(const cv::Mat& image, const Camera& camera) {
+  cv::Mat places(image.size(), CV_32FC2, cv::Scalar::all(-1));
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const auto at = camera.pinhole_from_image({x, y});
+      if (at)
+        places.at<cv::Vec2f>(y, x) = {static_cast<float>(at->pinhole_px.x()),
+                                      static_cast<float>(at->pinhole_px.y())};
+    }
+  }
+  cv::Mat seen;
+  cv::remap(image, seen, places, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT,
+            cv::Scalar(230));
+  return seen;
+}
+
+TEST(VanishingDirections, ALensThatBendsEdgesTurnsNoDirection) {
+  Camera camera = kEdgeCamera;
+  camera.lens = *Lens::make(LensModel::brown_conrady, {-0.35, 0.1});
+  const cv::Mat bent = seen_through(drawn_corner(), camera);
+  const auto worst_deg = [](const VanishingDirections& found) {
+    return std::max({nearest_deg(found, Eigen::Vector3d::UnitY(), Orientation::vertical),
+                     nearest_deg(found, level_direction(50), Orientation::horizontal),
+                     nearest_deg(found, level_direction(-40), Orientation::horizontal)});
+  };
+  EXPECT_LT(worst_deg(vanishing_directions(bent, camera)), 0.5);
+  EXPECT_GT(worst_deg(vanishing_directions(bent, kEdgeCamera)), 1);  // were it not told
+}
+
 TEST(VanishingDirections, AnImageWithoutLinesHasNone) {
   const VanishingDirections found =
-      vanishing_directions(cv::Mat(480, 640, CV_8UC1, cv::Scalar(128)), kEdgeView);
+      vanishing_directions(cv::Mat(480, 640, CV_8UC1, cv::Scalar(128)), kEdgeCamera);
   EXPECT_TRUE(found.directions.empty());
   EXPECT_TRUE(found.lines.empty());
 }

@@ -11,7 +11,7 @@
 namespace milepost {
 namespace {
 
-using testing::kView;
+using testing::kCamera;
 using testing::kWallM;
 using testing::painted_wall;
 using testing::seen;
@@ -27,7 +27,7 @@ double wall_ahead_m(const std::vector<Beam>& beams) {
 
 TEST(WallObserver, SeesHowAWallIsTurnedAndHowFarItStands) {
   const cv::Mat wall = painted_wall();
-  WallObserver observer(kView, {});
+  WallObserver observer(kCamera, {});
   EXPECT_TRUE(observer.observe(seen(wall, 0, 0), {}).beams.empty());
   observer.observe(seen(wall, 1, 0), {0.2, 1, 0});
   const WallObservation observation = observer.observe(seen(wall, 2, 0), {0.2, 1, 0});
@@ -50,7 +50,7 @@ TEST(WallObserver, SeesHowAWallIsTurnedAndHowFarItStands) {
 TEST(WallObserver, ATiltedCamerasBeamsAreLevel) {
   const cv::Mat wall = painted_wall();
   const double up_rad = 0.2;
-  WallObserver observer(kView, {});
+  WallObserver observer(kCamera, {});
   for (const double ahead_m : {0.0, 1.0}) {
     observer.observe(seen(wall, ahead_m, 0, up_rad), {0.2, ahead_m, 0});
   }
@@ -63,7 +63,7 @@ TEST(WallObserver, WithoutBeamsOrientationsAreLeft) {
   const cv::Mat wall = painted_wall();
   ObserverSettings settings;
   settings.with_beams = false;
-  WallObserver observer(kView, settings);
+  WallObserver observer(kCamera, settings);
   observer.observe(seen(wall, 0, 0), {});
   const WallObservation observation = observer.observe(seen(wall, 1, 0), {0.2, 1, 0});
   EXPECT_TRUE(observation.beams.empty());

@@ -691,7 +691,7 @@ TEST(RoadNetwork, ImagesDecideOnStackedRoads) {
     EXPECT_EQ(asked, 1);
     EXPECT_EQ(network.segments.size(), same ? 5U : 2U);
     ASSERT_EQ(network.findings.size(), same ? 0U : 1U);
-    for (const NetworkFinding& finding : network.findings)
+    for (const Finding& finding : network.findings)
       EXPECT_THAT(finding.what, ::testing::HasSubstr("by their images"));
   }
 }

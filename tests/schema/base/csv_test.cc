@@ -86,7 +86,7 @@ TEST_F(CsvTest, NamesAShortRow) {
 }
 
 TEST_F(CsvTest, TakesOnlyFiniteNumbers) {
-  for (const std::string cell : {"nan", "inf", "", "1x", " 1", "1 ", "1e999", "0x10", "abc"}) {
+  for (const std::string cell : {"nan", "inf", "", "1x", "1 2", "1e999", "++1", "0x10", "abc"}) {
     SCOPED_TRACE(cell);
     const auto table = read("name,x_m\na," + cell + "\n");
     ASSERT_TRUE(table.ok());
@@ -95,6 +95,35 @@ TEST_F(CsvTest, TakesOnlyFiniteNumbers) {
     EXPECT_EQ(number.error().line(), path_.string() + ", line 2: x_m is '" + cell +
                                          "', not a finite number; correct or remove the row");
   }
+}
+
+TEST_F(CsvTest, ReadsWhatSpreadsheetsWrite) {
+  for (const std::string content : {"\"name\",\"x_m\"\n\"a\",\"1.5\"\n", "name, x_m\na, 1.5\n",
+                                    "name;x_m\na;1,5\n", "name;x_m;note\na;+1.5;\"b;c\"\n",
+                                    "name\tx_m\na\t1,5\n \n", "\"name\" ;x_m\n \"a\" ; 1,5 \n"}) {
+    SCOPED_TRACE(content);
+    const auto table = read(content);
+    ASSERT_TRUE(table.ok()) << table.error().line();
+    ASSERT_EQ(table->row_count(), 1U);
+    EXPECT_EQ(table->text(0, 0), "a");
+    EXPECT_DOUBLE_EQ(*table->number(0, 1), 1.5);
+  }
+  const auto quoted = read("name,x_m\n\"a, \"\"b\"\"\",2\n");
+  ASSERT_TRUE(quoted.ok()) << quoted.error().line();
+  EXPECT_EQ(quoted->text(0, 0), "a, \"b\"");
+}
+
+TEST_F(CsvTest, ADecimalCommaNeedsAnotherSeparator) {
+  const auto table = read("name,x_m\na,\"1,5\"\n");
+  ASSERT_TRUE(table.ok()) << table.error().line();
+  EXPECT_FALSE(table->number(0, 1).ok());
+  EXPECT_FALSE(read("name;x_m\na;1.000,5\n")->number(0, 1).ok());  // thousands
+}
+
+TEST_F(CsvTest, NamesWhatItCannotRead) {
+  EXPECT_THAT(error_of("name,x_m\n\"a,1\n").line(), HasSubstr("line 2: a quote is not closed; "));
+  EXPECT_THAT(error_of("name,\"x_m\n").line(), HasSubstr("line 1: a quote is not closed; "));
+  EXPECT_THAT(error_of("\xff\xfen").line(), HasSubstr("is a table in UTF-16; save it as CSV"));
 }
 
 TEST_F(CsvTest, NamesAMissingFile) {

@@ -30,6 +30,17 @@ Drive geographic_drive() {
   return drive;
 }
 
+// Its frames are those of a camera ahead of the reference point, which is where they are written.
+Drive drive_of_a_mounted_fisheye() {
+  Drive drive = geographic_drive();
+  drive.camera.lens = *Lens::make(LensModel::kannala_brandt, {-0.0123456789, 0.02, 0, 1e-7});
+  drive.camera.mounting = {1.2, -0.3, 0.9, 3, -2, 1};
+  drive.has_tilts = true;
+  drive.frames[0].pitch_deg = 2.5;
+  drive.frames[0].roll_deg = -1.25;
+  return drive;
+}
+
 Drive local_drive() {
   Drive drive = geographic_drive();
   drive.position_frame = PositionFrame::local;
@@ -58,6 +69,8 @@ void expect_same(const Drive& read, const Drive& written) {
     EXPECT_EQ(read.frames[i].filename, written.frames[i].filename);
     EXPECT_EQ(read.frames[i].timestamp_s, written.frames[i].timestamp_s);
     EXPECT_NEAR(read.frames[i].heading_deg, written.frames[i].heading_deg, 1e-6);
+    EXPECT_NEAR(read.frames[i].pitch_deg, written.frames[i].pitch_deg, 2e-6);
+    EXPECT_NEAR(read.frames[i].roll_deg, written.frames[i].roll_deg, 2e-6);
     EXPECT_EQ(read.frames[i].position_sigma_m, written.frames[i].position_sigma_m);
     expect_same_place(read.frames[i].position, written.frames[i].position);
   }
@@ -87,6 +100,8 @@ void expect_round_trip(const Drive& drive) {
 TEST(WriteDrive, IsReadBackWithGeographicPositions) { expect_round_trip(geographic_drive()); }
 
 TEST(WriteDrive, IsReadBackWithLocalPositions) { expect_round_trip(local_drive()); }
+
+TEST(WriteDrive, IsReadBackWithLensAndMounting) { expect_round_trip(drive_of_a_mounted_fisheye()); }
 
 TEST(WriteDrive, WritesTheSameBytesAgainAfterReading) {
   const DriveFolder folder;

@@ -30,7 +30,7 @@ cv::Mat in_light(const cv::Mat& gray, double part) {
 }
 
 std::size_t features_of(const cv::Mat& gray) {
-  return FeatureExtractor(FeatureParameters{.max_features = 0}).extract(gray).size();
+  return FeatureExtractor(FeatureParameters{.max_features = 0}, {}).extract(gray).size();
 }
 
 // Blobs are found where they are, to a fraction of a pixel, large and small.
@@ -47,7 +47,7 @@ TEST(FeatureExtractor, PlacesHaveNoBias) {
         value = cv::saturate_cast<std::uint8_t>(
             60 + 150 * std::exp(-squared / (2 * sigma_px * sigma_px)));
       });
-      for (const Feature& feature : FeatureExtractor({}).extract(gray).features) {
+      for (const Feature& feature : FeatureExtractor({}, {}).extract(gray).features) {
         const cv::Point2d by(feature.x_px - centre.x, feature.y_px - centre.y);
         if (cv::norm(by) > 3) continue;
         off += by;
@@ -77,6 +77,34 @@ TEST(FeatureExtractor, InOrdinaryLightItIsSiftAsItComes) {
     sift->detect(gray, keypoints);
     EXPECT_EQ(features_of(gray), keypoints.size()) << light;
   }
+}
+
+// The frame is searched as it is, and what was found is undistorted.
+TEST(FeatureExtractor, UndistortsPlacesAndScales) {
+  const cv::Mat gray = blobs();
+  const FeatureParameters parameters{.max_features = 0};
+  Camera camera{gray.cols, gray.rows, {150, 150, 200, 150}};
+  const FeatureSet distorted = FeatureExtractor(parameters, camera).extract(gray);
+  camera.lens = *Lens::make(LensModel::brown_conrady, {-0.25});  // folds at 1.15: 0.77 is shown
+  const FeatureSet found = FeatureExtractor(parameters, camera).extract(gray);
+  ASSERT_EQ(found.features.size(), found.descriptors.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < distorted.size(); ++i) {
+    const Feature& before = distorted.features[i];
+    const auto expected = camera.pinhole_from_image({before.x_px, before.y_px});
+    if (!expected) continue;
+    ASSERT_LT(next, found.size());
+    const Feature& after = found.features[next];
+    EXPECT_EQ(found.descriptors[next], distorted.descriptors[i]);
+    EXPECT_NEAR(after.x_px, expected->pinhole_px.x(), 1e-3);
+    EXPECT_NEAR(after.y_px, expected->pinhole_px.y(), 1e-3);
+    EXPECT_NEAR(after.magnification, expected->magnification, 1e-5);
+    EXPECT_NEAR(after.scale_px, before.scale_px * expected->magnification, 1e-3);
+    ++next;
+  }
+  EXPECT_EQ(next, found.size());
+  EXPECT_GT(next, distorted.size() / 4);
+  EXPECT_LT(next, distorted.size());  // the corners lie beyond the field of view
 }
 
 // Noise of two grey levels in the dark is not texture.

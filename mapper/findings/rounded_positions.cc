@@ -1,4 +1,4 @@
-#include "mapper/pipeline/rounded_positions.h"
+#include "mapper/findings/rounded_positions.h"
 
 #include <algorithm>
 #include <cmath>
