@@ -3,7 +3,8 @@
 int main(int argc, char** argv) {
   return milepost::run_program("milepost-mapper",
                                "Turns recorded drives into maps for camera localization.",
-                               {{"build", milepost::add_build},
+                               {{"import", milepost::add_import},
+                                {"build", milepost::add_build},
                                 {"codebook", milepost::add_codebook},
                                 {"aerial", milepost::add_aerial},
                                 {"export", milepost::add_export}},

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "mapper/aerial/gdal.h"
+#include "mapper/geodata/gdal.h"
 
 namespace milepost {
 namespace fs = std::filesystem;

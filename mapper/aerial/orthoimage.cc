@@ -8,8 +8,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "mapper/aerial/gdal.h"
 #include "mapper/aerial/image_ground.h"
+#include "mapper/geodata/gdal.h"
 
 namespace milepost {
 namespace fs = std::filesystem;

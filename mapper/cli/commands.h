@@ -9,5 +9,6 @@ RunCommand add_build(CLI::App& app);
 RunCommand add_codebook(CLI::App& app);
 RunCommand add_aerial(CLI::App& app);
 RunCommand add_export(CLI::App& app);
+RunCommand add_import(CLI::App& app);
 
 }  // namespace milepost

@@ -162,6 +162,8 @@ Result<std::optional<Finding>> clock_offset(const Drive& drive, const std::vecto
 }  // namespace
 
 Result<std::vector<Finding>> image_findings(const Drive& drive, const std::vector<Step>& steps) {
+  // What is wrong with all of them is told without reading all.
+  if (const auto first = FrameReader(drive).gray(0); !first) return first.error();
   std::vector<Finding> findings;
   if (auto repeated = repeated_images(drive, steps)) findings.push_back(std::move(*repeated));
   const Result<std::optional<Finding>> offset = clock_offset(drive, steps);

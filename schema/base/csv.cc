@@ -129,7 +129,7 @@ Result<CsvTable> CsvTable::read(const std::filesystem::path& path,
     const auto split_row = split(row, table.separator_);
     if (!split_row) return unclosed_quote(path, line);
     const std::vector<std::string>& cells = *split_row;
-    const std::size_t needed = cell_of.back() + 1;
+    const std::size_t needed = cell_of.empty() ? 0 : std::ranges::max(cell_of) + 1;
     if (cells.size() < needed) {
       return Error{
           ErrorCode::invalid_input, path.string() + ", line " + std::to_string(line),

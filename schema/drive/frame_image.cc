@@ -52,8 +52,26 @@ Result<cv::Mat> whole_image(const std::string& image, int grey_bits) {
                "convert the image"};
 }
 
+// Whether an image would have the camera's size if its EXIF orientation had not turned it.
+bool was_turned(const cv::Mat& gray, const std::string& image, const Camera& camera) {
+  if (gray.cols != camera.height_px || gray.rows != camera.width_px) return false;
+  Result<std::string> bytes = read_text_file(image);
+  if (!bytes) return false;
+  const auto stored =
+      decoded_image(std::move(*bytes), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  return stored && stored->cols == camera.width_px;
+}
+
 Status check_size(const cv::Mat& gray, const std::string& image, const Camera& camera) {
   if (gray.cols == camera.width_px && gray.rows == camera.height_px) return ok_status();
+  if (was_turned(gray, image, camera)) {
+    return Error{ErrorCode::invalid_input, "",
+                 "image " + image + " is " + size_text(gray.cols, gray.rows) +
+                     " pixels once its EXIF orientation is applied, the camera's images " +
+                     size_text(camera.width_px, camera.height_px),
+                 "describe the camera of the images as they are shown, or remove the orientation "
+                 "from the images"};
+  }
   return Error{ErrorCode::invalid_input, "",
                "image " + image + " is " + size_text(gray.cols, gray.rows) +
                    " pixels, the camera's images " + size_text(camera.width_px, camera.height_px),

@@ -25,6 +25,17 @@ Eigen::Isometry3d vehicle_from_camera(const Mounting& mounting) {
   return enu_from_camera(vehicle).inverse() * enu_from_camera(camera);
 }
 
+Mounting mounting_of(const Eigen::Isometry3d& vehicle_from_camera) {
+  const CameraPose vehicle;  // where forward is north
+  const CameraPose camera = pose_of(enu_from_camera(vehicle) * vehicle_from_camera);
+  return {camera.enu_m.y(),
+          camera.enu_m.x(),
+          camera.enu_m.z(),
+          camera.heading_rad * kDegPerRad,
+          camera.pitch_rad * kDegPerRad,
+          camera.roll_rad * kDegPerRad};
+}
+
 GeoAttitude camera_of_vehicle(const GeoAttitude& vehicle, const Mounting& mounting) {
   if (mounting.is_at_reference_point()) return vehicle;
   return moved(vehicle, vehicle_from_camera(mounting));

@@ -24,6 +24,8 @@ struct Mounting {
 
 // The vehicle's frame has the axes of a camera that looks forward: x right, y down, z forward.
 Eigen::Isometry3d vehicle_from_camera(const Mounting& mounting);
+// The inverse. REQUIRES: the camera does not look straight up or down.
+Mounting mounting_of(const Eigen::Isometry3d& vehicle_from_camera);
 
 // A position with the attitude of a vehicle or a camera there.
 struct GeoAttitude {

@@ -92,6 +92,24 @@ TEST_F(FrameImage, RefusesAnotherSizeThanTheCameras) {
   EXPECT_THAT(refusal(encoded(".png", smooth_image(16, 11))), HasSubstr(" is 16x11 pixels"));
 }
 
+// A JPEG with an EXIF orientation of 6: shown turned by a right angle.
+std::string turned_by_exif(const std::string& jpeg) {
+  const std::string tiff("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0", 26);
+  const std::string exif = std::string("Exif\0\0", 6) + tiff;
+  const auto length = static_cast<char>(exif.size() + 2);
+  return jpeg.substr(0, 2) + "\xff\xe1" + std::string(1, '\0') + length + exif + jpeg.substr(2);
+}
+
+TEST_F(FrameImage, NamesAnOrientationThatTurnsIt) {
+  const std::string jpeg = encoded(".jpg", smooth_image(16, 12));
+  ASSERT_EQ(refusal(jpeg), "accepted");
+  EXPECT_EQ(refusal(turned_by_exif(jpeg)),
+            start_of_line() +
+                " is 12x16 pixels once its EXIF orientation is applied, the camera's images 16x12; "
+                "describe the camera of the images as they are shown, or remove the orientation "
+                "from the images");
+}
+
 TEST_F(FrameImage, NamesTheFrameOfADriveThatWasNotRead) {
   Drive drive;
   drive.folder = "made";

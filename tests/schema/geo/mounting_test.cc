@@ -45,6 +45,21 @@ TEST(Mounting, BoresightAddsToTheAttitude) {
   EXPECT_NEAR(std::abs(sideways.roll_deg), 10, 1e-9);
 }
 
+TEST(Mounting, IsATransform) {
+  const Mounting mounting{1.2, -0.4, 0.9, 3, -2, 1};
+  const Mounting back = mounting_of(vehicle_from_camera(mounting));
+  EXPECT_NEAR(back.forward_m, 1.2, 1e-12);
+  EXPECT_NEAR(back.right_m, -0.4, 1e-12);
+  EXPECT_NEAR(back.up_m, 0.9, 1e-12);
+  EXPECT_NEAR(back.yaw_deg, 3, 1e-9);
+  EXPECT_NEAR(back.pitch_deg, -2, 1e-9);
+  EXPECT_NEAR(back.roll_deg, 1, 1e-9);
+  // What is 1 m ahead of the vehicle, to its right and above it: x right, y down, z forward.
+  const Eigen::Vector3d at =
+      vehicle_from_camera({.forward_m = 1, .right_m = 2, .up_m = 3}).translation();
+  EXPECT_NEAR((at - Eigen::Vector3d(2, -3, 1)).norm(), 0, 1e-12);
+}
+
 TEST(Mounting, IsUndone) {
   const Mounting mounting{1.2, -0.4, 0.9, 3, -2, 1};
   const GeoAttitude vehicle{kHere, 123, 4, -5};

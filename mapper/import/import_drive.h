@@ -1,0 +1,38 @@
+// A recording of another program as a drive folder.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mapper/import/recording.h"
+#include "schema/base/result.h"
+#include "schema/drive/drive.h"
+
+namespace milepost {
+
+struct DriveSettings {
+  std::filesystem::path folder;  // of the drive; new, or empty
+  std::string name;              // empty: the folder's
+  std::string source;            // one line
+  bool copy_images = false;      // otherwise they are referred to by symbolic links
+  double time_offset_s = 0;      // added to the images' times
+  double max_gap_s = 1;          // between poses; images in longer gaps are left out
+  bool spread_seconds = false;   // images stamped with whole seconds
+  std::optional<Camera> camera;  // in the place of the recording's
+  std::optional<Mounting> mounting;
+  std::optional<double> receiver_sigma_m;  // also writes gps.csv, one position a second
+};
+
+struct ImportReport {
+  Drive drive;                     // as it is read back
+  std::size_t left_out = 0;        // images without a pose
+  std::vector<std::string> notes;  // what was left out and why, a line each
+};
+
+// Writes the drive and reads it back. A failure leaves none behind. Errors: invalid_input (no
+// camera, no image with a pose, what read_drive refuses), io.
+Result<ImportReport> import_drive(Recording recording, const DriveSettings& settings);
+
+}  // namespace milepost

@@ -1,0 +1,20 @@
+#include "mapper/import/layouts.h"
+
+namespace milepost {
+
+const std::vector<ImportLayout>& import_layouts() {
+  constexpr auto kFolder = &ImportOptions::folder;
+  constexpr auto kImages = &ImportOptions::images;
+  constexpr auto kTrajectory = &ImportOptions::trajectory;
+  static const std::vector<ImportLayout> kLayouts = {
+      {"sbet", {kTrajectory, kImages}, read_sbet},
+      {"csv", {kTrajectory, kImages}, read_csv},
+      {"nmea", {kTrajectory, kImages}, read_nmea},
+      {"gpx", {kTrajectory, kImages}, read_gpx},
+      {"kitti-odometry", {kFolder, kTrajectory}, read_kitti_odometry},
+      {"kitti-raw", {kFolder}, read_kitti_raw},
+      {"tum", {kTrajectory, kImages}, read_tum}};
+  return kLayouts;
+}
+
+}  // namespace milepost

@@ -1,0 +1,49 @@
+// What an import reads from another program's recording, before it becomes a drive.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/base/result.h"
+#include "schema/geo/camera.h"
+#include "schema/geo/mounting.h"
+
+namespace milepost {
+
+// Of the vehicle's reference point, or of the camera, as the layout records it.
+struct RecordedPose {
+  double timestamp_s = 0;
+  GeoAttitude attitude;
+};
+
+struct RecordedImage {
+  std::filesystem::path file;
+  double timestamp_s = 0;
+};
+
+struct Recording {
+  std::vector<RecordedPose> poses;  // in any order, at their own rate
+  bool has_headings = true;         // false: to be told by the motion
+  bool has_tilts = false;           // pitch and roll are recorded
+  std::vector<RecordedImage> images;
+  std::optional<Camera> camera;  // with the mounting, if the layout tells them
+  bool is_receivers = false;     // the poses are a navigation receiver's
+};
+
+// What the user tells of a recording; each layout reads a part of it.
+struct ImportOptions {
+  std::filesystem::path folder;       // of a layout that has one
+  std::filesystem::path images;       // folder
+  std::filesystem::path times;        // of the images
+  std::filesystem::path trajectory;   // file
+  std::filesystem::path calibration;  // file
+  std::string crs;                    // of coordinates that are not WGS84 degrees
+  std::vector<std::string> columns;   // csv: what=NAME
+  std::optional<GeoPoint> origin;     // of a local frame
+  double origin_heading_deg = 0;      // of its forward axis
+  double utc_day_s = 0;               // added to times of day or week
+};
+
+}  // namespace milepost
