@@ -31,31 +31,46 @@ struct Mistake {
   const char* hint;
 };
 
-const std::vector<Mistake> kMistakes = {
-    {"reversed_camera", [](const Eigen::Vector2d& way) -> Eigen::Vector2d { return -way; },
-     "the headings point against the direction of travel: the camera looks back, or they were "
-     "turned by 180 degrees",
-     "correct them; of a camera that looks back, a camera that looks ahead finds nothing"},
-    {"exchanged_axes",
-     [](const Eigen::Vector2d& way) -> Eigen::Vector2d {
-       return {way.y(), way.x()};
-     },
-     "the headings fit the way if its axes are exchanged: east for north, latitude for longitude, "
-     "or headings that count from east, counterclockwise",
-     "correct the columns; headings count clockwise from north"},
-    {"mirrored_axis",
-     [](const Eigen::Vector2d& way) -> Eigen::Vector2d {
-       return {-way.x(), way.y()};
-     },
-     "the headings fit the way if east and west are exchanged: a sign, or headings that count "
-     "counterclockwise from north",
-     "correct the sign; headings count clockwise from north"},
-    {"mirrored_axis",
-     [](const Eigen::Vector2d& way) -> Eigen::Vector2d {
-       return {way.x(), -way.y()};
-     },
-     "the headings fit the way if north and south are exchanged",
-     "correct the sign of the northing or of the headings"}};
+constexpr const char* kExchanged =
+    "the headings fit the way if its axes are exchanged: east for north, latitude for longitude, "
+    "or headings that count from east, counterclockwise";
+constexpr const char* kExchangedMend = "correct the columns; headings count clockwise from north";
+
+// What may be wrong with a drive at `there`, as it was recorded.
+std::vector<Mistake> mistakes_at(const GeoPoint& there) {
+  using Way = Eigen::Vector2d;
+  // A degree of longitude is shorter than one of latitude.
+  const double recorded = std::cos(there.latitude_deg * kRadPerDeg);
+  const double actual = std::cos(there.longitude_deg * kRadPerDeg);
+  return {
+      {"reversed_camera", [](const Way& way) -> Way { return -way; },
+       "the headings point against the direction of travel: the camera looks back, or they were "
+       "turned by 180 degrees",
+       "correct them; of a camera that looks back, a camera that looks ahead finds nothing"},
+      {"exchanged_axes",
+       [](const Way& way) -> Way {
+         return {way.y(), way.x()};
+       },
+       kExchanged, kExchangedMend},
+      {"exchanged_axes",
+       [=](const Way& way) -> Way {
+         return {way.y() * actual, way.x() / recorded};
+       },
+       kExchanged, kExchangedMend},
+      {"mirrored_axis",
+       [](const Way& way) -> Way {
+         return {-way.x(), way.y()};
+       },
+       "the headings fit the way if east and west are exchanged: a sign, or headings that count "
+       "counterclockwise from north",
+       "correct the sign; headings count clockwise from north"},
+      {"mirrored_axis",
+       [](const Way& way) -> Way {
+         return {way.x(), -way.y()};
+       },
+       "the headings fit the way if north and south are exchanged",
+       "correct the sign of the northing or of the headings"}};
+}
 
 // How far the headings are turned from the ways, how much that varies, and on what share of them
 // it is far.
@@ -144,7 +159,7 @@ class HeadingCheck {
   Finding cause_of(const Turned& turned, double noise_deg) const {
     const Frame& first = drive_.frames.front();
     const std::size_t count = drive_.frames.size();
-    for (const Mistake& mistake : kMistakes) {
+    for (const Mistake& mistake : mistakes_at(first.position)) {
       if (turned_from(mistake.way, 1).fits(noise_deg))
         return on_trajectory(drive_, mistake.kind, first, count, mistake.what, mistake.hint);
     }

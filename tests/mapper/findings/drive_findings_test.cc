@@ -153,6 +153,13 @@ TEST(DriveFindings, AxesThatAreExchanged) {
               ElementsAre("mirrored_axis"));
 }
 
+TEST(DriveFindings, LatitudeForLongitude) {
+  EXPECT_THAT(kinds_of(changed([](Frame& frame, std::mt19937&) {
+                std::swap(frame.position.latitude_deg, frame.position.longitude_deg);
+              })),
+              ElementsAre("exchanged_axes"));
+}
+
 TEST(DriveFindings, PositionsThatVary) {
   const Drive drive = changed([](Frame& frame, std::mt19937& random) {
     move(frame, {normal(random, 0.3), normal(random, 0.3), 0});
