@@ -13,6 +13,7 @@
 #include "client/evaluate/replay.h"
 #include "client/evaluate/report/report_data.h"
 #include "client/evaluate/report/report_page.h"
+#include "client/evaluate/tum.h"
 #include "schema/base/file.h"
 
 namespace milepost {
@@ -39,6 +40,7 @@ struct EvaluateOptions {
   std::optional<double> receiver_until_s;
   std::vector<std::string> methods = {kDefaultMethod};
   bool estimates = false;
+  std::string tum;
 };
 
 Result<std::vector<Method>> methods_named(const std::vector<std::string>& names) {
@@ -123,6 +125,10 @@ Status prepare_outputs(const EvaluateOptions& options, const Drive& drive) {
     outputs.push_back(output("estimates-" + method + ".csv", kEstimatesOutput));
   }
   if (options.estimates) outputs.push_back(output("regressions.csv", kRegressionsOutput));
+  if (!options.tum.empty()) {
+    outputs.push_back({"--tum", options.tum, &kTumOutput});
+    outputs.push_back({"--tum", tum_truth_file(options.tum), &kTumOutput});
+  }
   return check_outputs(outputs, inputs_of(drive, options.map));
 }
 
@@ -179,6 +185,11 @@ int evaluate(const std::string& program, const EvaluateOptions& options) {
     const Status more = write_estimates(options.out, evaluations, **source);
     if (!more.ok()) return fail(program, more.error());
   }
+  if (!options.tum.empty()) {
+    Status more = write_text_file(options.tum, tum_text(replay->fixes.front(), *drive));
+    if (more) more = write_text_file(tum_truth_file(options.tum), tum_truth_text(*drive));
+    if (!more) return fail(program, more.error());
+  }
   std::cout << summary_text(evaluations);
   return replay->outage ? fail(program, *replay->outage) : kExitDone;
 }
@@ -195,6 +206,11 @@ RunCommand add_evaluate(CLI::App& app) {
       ->required()
       ->option_text("DIR");
   add_receiver_option(app, options->receiver_until_s);
+  app.add_option("--tum", options->tum,
+                 "Also write the poses of the first method as lines 'timestamp tx ty tz qx qy qz "
+                 "qw', camera\naxes in the drive's tangent frame or that of its first frame, and "
+                 "the recorded ones\nbeside it: run.tum and run-truth.tum")
+      ->option_text("FILE");
   app.add_option("--out", options->out,
                  "Folder to write to, created if missing; earlier results are replaced")
       ->required()

@@ -7,6 +7,7 @@
 #include "client/evaluate/drive_playback.h"
 #include "client/evaluate/output.h"
 #include "client/evaluate/replay.h"
+#include "client/evaluate/tum.h"
 #include "schema/base/file.h"
 
 namespace milepost {
@@ -32,6 +33,7 @@ struct LocalizeOptions {
   SourceOptions map;
   std::string drive;
   std::string out;
+  std::string tum;
   std::optional<double> receiver_until_s;
   std::string method = kDefaultMethod;
 };
@@ -49,9 +51,9 @@ int localize(const std::string& program, const LocalizeOptions& options) {
   Result<Drive> drive = read_drive(options.drive);
   if (!drive) return fail(program, drive.error());
   if (options.receiver_until_s) ignore_receiver_after(*drive, *options.receiver_until_s);
-  if (const Status free =
-          check_outputs({{"--out", options.out, &kFixesOutput}}, inputs_of(*drive, options.map));
-      !free) {
+  std::vector<Output> outputs = {{"--out", options.out, &kFixesOutput}};
+  if (!options.tum.empty()) outputs.push_back({"--tum", options.tum, &kTumOutput});
+  if (const Status free = check_outputs(outputs, inputs_of(*drive, options.map)); !free) {
     return fail(program, free.error());
   }
   const Result<std::shared_ptr<MapSource>> source = open_source(options.map);
@@ -68,6 +70,10 @@ int localize(const std::string& program, const LocalizeOptions& options) {
   if (!replay) return fail(program, replay.error());
   const Status written = write_text_file(options.out, fixes_csv(replay->fixes.front()));
   if (!written.ok()) return fail(program, written.error());
+  if (!options.tum.empty()) {
+    const Status more = write_text_file(options.tum, tum_text(replay->fixes.front(), *drive));
+    if (!more) return fail(program, more.error());
+  }
   report_stream(options.out) << summary_line(replay->fixes.front(), options.out) << "\n";
   return replay->outage ? fail(program, *replay->outage) : kExitDone;
 }
@@ -84,6 +90,10 @@ RunCommand add_localize(CLI::App& app) {
   add_receiver_option(app, options->receiver_until_s);
   app.add_option("--out", options->out, "File to write the fixes to; old fixes are replaced")
       ->required()
+      ->option_text("FILE");
+  app.add_option("--tum", options->tum,
+                 "Also write the camera's poses as lines 'timestamp tx ty tz qx qy qz qw': camera\n"
+                 "axes in the drive's tangent frame, or that of its first frame")
       ->option_text("FILE");
   app.add_option("--method", options->method, "How to localize (default " + options->method + ")")
       ->option_text("M");

@@ -2,6 +2,7 @@
 import contextlib
 import hashlib
 import json
+import math
 import socket
 import sqlite3
 import struct
@@ -50,6 +51,12 @@ def canonical(value):
 
 def digest_of(content):
     return hashlib.blake2b(content, digest_size=16).hexdigest()
+
+
+def tum_rows(file):
+    lines = file.read_text().splitlines()
+    assert lines[0] == "# timestamp tx ty tz qx qy qz qw", lines[0]
+    return [[float(word) for word in line.split()] for line in lines[1:]]
 
 
 class MapFile:
@@ -182,6 +189,29 @@ class Line(CommandTest):
         self.assertEqual(len(tables), 1 + knows_lateral)
         self.assertEqual([row["cells"][0] for row in tables[0]["rows"]], list(METHODS))
         self.assertNotRegex(report, r"(src|href)=\"http")  # self-contained
+
+    def test_poses_for_other_evaluators(self):
+        """An independent reader finds the mean error of evaluate in the two trajectories."""
+        self.build_map()
+        file, truth, out = self.folder / "run.tum", self.folder / "run-truth.tum", self.folder / "out"
+        self.expect_done(run(CLIENT, "evaluate", "--map", self.map, "--drive", self.query, "--out", out,
+                             "--method", "milepost", "--tum", file))
+        recorded = {row[0]: row for row in tum_rows(truth)}
+        self.assertEqual(len(recorded), len(rows_of(self.query / "trajectory.csv")))
+        off_m, turned = [], []
+        for row in tum_rows(file):
+            real = recorded[row[0]]
+            off_m.append(math.dist(row[1:3], real[1:3]))
+            turned.append(math.degrees(2 * math.acos(min(1, abs(sum(a * b for a, b in zip(row[4:], real[4:])))))))
+        distances = [float(row["distance_m"]) for row in rows_of(out / "fixes-milepost.csv")]
+        self.assertEqual(len(off_m), len(distances))
+        self.assertAlmostEqual(sum(off_m) / len(off_m), sum(distances) / len(distances), places=3)
+        self.assertLess(max(turned), 1.5)  # pitch and roll are not recorded
+        first = rows_of(self.query / "trajectory.csv")[0]
+        for axis, metres in zip(("east_m", "north_m", "up_m"), tum_rows(truth)[0][1:4]):
+            self.assertAlmostEqual(float(first[axis]), metres, places=3)
+        self.expect_done(self.localize("--map", self.map, "--tum", file))
+        self.assertEqual(len(tum_rows(file)), len(off_m))
 
     def test_walls_beside_the_tracklets_change_nothing(self):
         self.build_map()
