@@ -7,6 +7,8 @@ int main(int argc, char** argv) {
                                 {"build", milepost::add_build},
                                 {"codebook", milepost::add_codebook},
                                 {"aerial", milepost::add_aerial},
+                                {"inspect", milepost::add_inspect},
+                                {"verify", milepost::add_verify},
                                 {"export", milepost::add_export}},
                                argc, argv);
 }

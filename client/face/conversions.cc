@@ -58,7 +58,7 @@ milepost::Result<Lens> lens_of(const Camera& camera) {
   std::vector<double> coefficients = camera.distortion;
   const bool is_plain = std::ranges::all_of(coefficients, [](double k) { return k == 0; });
   if (camera.lens == LensModel::pinhole && is_plain) coefficients.clear();
-  return Lens::make(model_of(camera.lens), std::move(coefficients));
+  return Lens::make(model_of(camera.lens), coefficients);
 }
 
 milepost::Mounting mounting_of(const Mounting& m) {

@@ -10,6 +10,7 @@
 #include "mapper/cli/commands.h"
 #include "mapper/codebook/codebook.h"
 #include "mapper/findings/drive_findings.h"
+#include "mapper/findings/witness_findings.h"
 #include "mapper/pipeline/build_map.h"
 #include "schema/base/digits.h"
 #include "schema/base/output_file.h"
@@ -91,6 +92,9 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
   border->needs(beyond);
   beyond->needs(border);
   app.add_flag("--lab", options.settings.lab, "Add the layers of the methods for comparison");
+  add_number(app, "--min-fitting-share", options.settings.min_fitting_share, "X",
+             "The build fails if of a drive's followed features a smaller share fits its poses", 0,
+             1);
   app.add_flag("--allow-empty", options.settings.allow_empty,
                "Write the map even if nothing was found for it");
 
@@ -186,6 +190,21 @@ Json json_of(const std::vector<Finding>& findings) {
   return all;
 }
 
+// What the images of each drive say of its poses.
+Json json_of(const std::vector<DriveReport>& drives) {
+  Json all = Json::array();
+  for (const DriveReport& drive : drives) {
+    const ImageWitness& witness = drive.witness;
+    all.push_back({{"folder", drive.folder},
+                   {"frames", drive.frames},
+                   {"plan_rms_m", witness.plan_rms_m()},
+                   {"up_rms_m", witness.up_rms_m()},
+                   {"heading_rms_deg", witness.heading_rms_deg()},
+                   {"fitting_share", witness.fitting_share()}});
+  }
+  return all;
+}
+
 Json json_of(const BuildReport& report) {
   Json all = Json::array();
   for (const MapReport& map : report.maps) {
@@ -265,6 +284,10 @@ int build(const std::string& program, BuildOptions options) {
                      });
   }();
   if (!report) return fail(program, report.error());
+  for (const DriveReport& drive : report->drives) {
+    const std::vector<Finding> witnessed = witness_findings(drive.folder, drive.witness);
+    report->findings.insert(report->findings.end(), witnessed.begin(), witnessed.end());
+  }
   tell(program, report->findings);
   for (const DriveReport& drive : report->drives) {
     if (drive.frames > 0 && drive.tracklets == 0) warn(program, nothing_found(drive));
@@ -272,7 +295,11 @@ int build(const std::string& program, BuildOptions options) {
   if (options.json) {
     std::vector<Finding> findings = *before;
     findings.insert(findings.end(), report->findings.begin(), report->findings.end());
-    std::cout << Json{{"findings", json_of(findings)}, {"maps", json_of(*report)}}.dump(2) << "\n";
+    std::cout << Json{{"findings", json_of(findings)},
+                      {"drives", json_of(report->drives)},
+                      {"maps", json_of(*report)}}
+                     .dump(2)
+              << "\n";
     return kExitDone;
   }
   for (const MapReport& map : report->maps) std::cout << summary_line(map, report->frames) << "\n";

@@ -250,6 +250,21 @@ class Adjustment {
     solve_with(fitting_within(settings_.max_rms_px).tracks, believed_, settings_.pixel_sigma_px);
   }
 
+  ImageWitness witness() const {
+    ImageWitness witness;
+    witness.frames = poses_.size() - final_frames_;
+    if (witness.frames == 0) return witness;
+    const PoseBlock squares = mean_squares_off(poses_, recorded_, final_frames_, mounting_yaw_);
+    const auto frames = static_cast<double>(witness.frames);
+    witness.plan_m2 = frames * (squares[0] + squares[1]);
+    witness.up_m2 = frames * squares[2];
+    witness.heading_deg2 = frames * squares[3] * kDegPerRad * kDegPerRad;
+    const FittingTracks fitting = fitting_within(settings_.max_rms_px);
+    witness.tracks = fitting.placed;
+    witness.fitting = fitting.tracks.size();
+    return witness;
+  }
+
  private:
   FittingTracks fitting_within(double max_rms_px) const {
     return tracks_that_fit(tracks_, poses_, camera_, max_rms_px, settings_.tracks_a_frame);
@@ -274,11 +289,11 @@ class Adjustment {
     std::vector<PoseBlock> blocks;
     blocks.reserve(poses_.size());
     for (const CameraPose& pose : poses_) blocks.push_back(block_from(pose));
-    const double mounting_yaw = solve(blocks, recorded_, final_frames_, fitting, camera_, sigmas,
-                                      pixel_sigma_px, settings_);
+    mounting_yaw_ = solve(blocks, recorded_, final_frames_, fitting, camera_, sigmas,
+                          pixel_sigma_px, settings_);
     for (std::size_t i = 0; i < poses_.size(); ++i) poses_[i] = pose_from(blocks[i].data());
     if (final_frames_ == poses_.size()) return;
-    believed_ = believed_sigmas(mean_squares_off(poses_, recorded_, final_frames_, mounting_yaw),
+    believed_ = believed_sigmas(mean_squares_off(poses_, recorded_, final_frames_, mounting_yaw_),
                                 settings_);
   }
 
@@ -289,14 +304,27 @@ class Adjustment {
   const AdjustmentSettings& settings_;
   std::vector<PoseBlock> recorded_;
   RecordSigmas believed_;
+  double mounting_yaw_ = 0;
 };
 
 }  // namespace
 
-void adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
-                  const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
-                  const AdjustmentSettings& settings) {
-  Adjustment(poses, final_frames, tracks, camera, settings).run();
+ImageWitness& ImageWitness::operator+=(const ImageWitness& other) {
+  frames += other.frames;
+  plan_m2 += other.plan_m2;
+  up_m2 += other.up_m2;
+  heading_deg2 += other.heading_deg2;
+  tracks += other.tracks;
+  fitting += other.fitting;
+  return *this;
+}
+
+ImageWitness adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
+                          const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
+                          const AdjustmentSettings& settings) {
+  Adjustment adjustment(poses, final_frames, tracks, camera, settings);
+  adjustment.run();
+  return adjustment.witness();
 }
 
 }  // namespace milepost

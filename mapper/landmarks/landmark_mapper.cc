@@ -109,7 +109,7 @@ void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after) {
   for (const PendingTrack& track : tracks_) {
     if (track.observations.back().frame < frames) inside.push_back(track.observations);
   }
-  adjust_poses(poses, final_, inside, camera_, settings_.adjustment);
+  witness_ += adjust_poses(poses, final_, inside, camera_, settings_.adjustment);
 
   for (std::size_t i = final_; i < final_after; ++i) {
     const CameraPose& pose = poses[i];

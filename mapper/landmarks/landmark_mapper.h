@@ -56,6 +56,9 @@ class LandmarkMapper {
   // The landmarks, by end of their range, of which all is known by now. `finished` finalizes all.
   std::vector<MappedLandmark> take_mapped(bool finished);
 
+  // What the images say of the record so far; frames of two windows count twice.
+  const ImageWitness& witness() const { return witness_; }
+
  private:
   struct RecordedPose {
     double along_m = 0;
@@ -86,6 +89,7 @@ class LandmarkMapper {
   std::vector<RecordedPose> frames_;  // kept frames
   std::size_t final_ = 0;             // number of frames_ with final poses
   std::vector<PendingTrack> tracks_;  // in the order of their ends
+  ImageWitness witness_;
   VehiclesAhead vehicles_ahead_;
   std::deque<Placed> placed_;  // until it is known what is seen of vehicles after them
 };

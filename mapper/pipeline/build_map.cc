@@ -13,6 +13,7 @@
 #include "mapper/pipeline/landmark_survey.h"
 #include "mapper/pipeline/layer_builder.h"
 #include "mapper/pipeline/layers.h"
+#include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
@@ -63,7 +64,10 @@ class StretchBuilder {
                      "stopped on request, no map was written", ""};
       }
     }
-    return add_and_write(tracker_.finish(), std::numeric_limits<double>::infinity(), map, report);
+    const Status written =
+        add_and_write(tracker_.finish(), std::numeric_limits<double>::infinity(), map, report);
+    report.drives.back().witness += survey_.witness();
+    return written;
   }
 
  private:
@@ -123,6 +127,17 @@ Status check_cameras_agree(const std::vector<DrivePlan>& drives) {
   return ok_status();
 }
 
+Status check_fit(const DriveReport& drive, const BuildSettings& settings) {
+  const double share = drive.witness.fitting_share();
+  if (share >= settings.min_fitting_share) return ok_status();
+  return Error{ErrorCode::invalid_input, drive.folder,
+               "only " + fixed(100 * share, 0) +
+                   " % of the features that were followed fit its poses, fewer than "
+                   "min-fitting-share: " +
+                   fixed(100 * settings.min_fitting_share, 0) + " %",
+               "check its camera and poses, leave the drive out, or lower min-fitting-share"};
+}
+
 }  // namespace
 
 Error nothing_found(const DriveReport& drive) {
@@ -171,6 +186,7 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     if (status.ok() && is_mapped && report.drives.back().tracklets == 0 && !settings.allow_empty) {
       status = nothing_found(report.drives.back());
     }
+    if (status.ok()) status = check_fit(report.drives.back(), settings);
   }
   if (status.ok()) {
     const auto known = build_fused_tiles(

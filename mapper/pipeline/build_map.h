@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mapper/findings/finding.h"
+#include "mapper/landmarks/adjustment.h"
 #include "mapper/pipeline/divided_map.h"
 #include "mapper/pipeline/settings.h"
 #include "schema/base/result.h"
@@ -27,6 +28,7 @@ struct DriveReport {
   std::size_t tracklets = 0;  // landmarks that were mapped
   int darkest = 255;          // of the frames' grey values, 0 to 255
   int brightest = 0;
+  ImageWitness witness = {};  // what its images say of its poses
 };
 
 struct BuildReport {

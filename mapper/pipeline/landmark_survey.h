@@ -34,6 +34,7 @@ class LandmarkSurvey {
   // Stores what has become final; everything once `finished`. Returns how many landmarks.
   // Errors: those of LandmarkStore.
   Result<std::size_t> store(bool finished);
+  const ImageWitness& witness() const { return mapper_.witness(); }
 
  private:
   const StretchPlan& stretch_;

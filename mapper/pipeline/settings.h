@@ -55,8 +55,9 @@ struct BuildSettings {
   PassPolicy passes = PassPolicy::fuse;
   FusionSettings fusion;
   std::optional<Division> division;
-  bool lab = false;          // also build the layers of the other methods
-  bool allow_empty = false;  // a drive without any tracklet is not an error
+  bool lab = false;                // also build the layers of the other methods
+  double min_fitting_share = 0.3;  // of a drive's tracks, to its poses; otherwise the build fails
+  bool allow_empty = false;        // a drive without any tracklet is not an error
 };
 
 }  // namespace milepost

@@ -146,7 +146,7 @@ Lens lens_of(KeyReader& keys, const Json& camera) {
                                                         : 0);
   }
   keys.only(object, known, prefix);
-  const Result<Lens> lens = Lens::make(*model, std::move(coefficients));
+  const Result<Lens> lens = Lens::make(*model, coefficients);
   if (!lens) {
     keys.fail("camera.distortion:", lens.error().what, lens.error().hint);
     return {};
@@ -187,7 +187,8 @@ Camera camera_of(KeyReader& keys, const Json& root) {
 OrderedJson distortion_of(const Lens& lens) {
   OrderedJson json = {{"model", name_of(lens.model())}};
   const std::vector<std::string>& names = coefficient_names(lens.model());
-  for (std::size_t i = 0; i < names.size(); ++i) json[names[i]] = lens.coefficients()[i];
+  const std::vector<double> coefficients = lens.coefficients();
+  for (std::size_t i = 0; i < names.size(); ++i) json[names[i]] = coefficients[i];
   return json;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <Eigen/LU>
 #include <unsupported/Eigen/AutoDiff>
@@ -65,9 +64,8 @@ const std::vector<std::string>& coefficient_names(LensModel model) {
   return kNone;
 }
 
-Lens::Lens(LensModel model, std::vector<double> coefficients)
-    : model_(model), coefficients_(std::move(coefficients)) {
-  coefficients_.resize(coefficient_names(model).size(), 0);
+Lens::Lens(LensModel model, const Coefficients& coefficients)
+    : model_(model), coefficients_(coefficients) {
   for (double next = kStep; next <= kWidestRadius; next += kStep) {
     const double growth = (shown_radius(next) - shown_radius(widest_)) / (next - widest_);
     if (!(growth >= kLeastGrowth)) break;
@@ -75,7 +73,7 @@ Lens::Lens(LensModel model, std::vector<double> coefficients)
   }
 }
 
-Result<Lens> Lens::make(LensModel model, std::vector<double> coefficients) {
+Result<Lens> Lens::make(LensModel model, const std::vector<double>& coefficients) {
   const auto wrong = [&](const std::string& what, const std::string& hint) {
     return Error{ErrorCode::invalid_input, std::string("lens ") + name_of(model), what, hint};
   };
@@ -90,7 +88,9 @@ Result<Lens> Lens::make(LensModel model, std::vector<double> coefficients) {
     }
   }
   if (model == LensModel::pinhole) return Lens();
-  Lens lens(model, std::move(coefficients));
+  Coefficients all{};
+  std::ranges::copy(coefficients, all.begin());
+  const Lens lens(model, all);
   if (lens.widest_ < kNarrowestRadius) {
     return wrong("its image folds within 6 degrees of the optical axis",
                  "check the coefficients, their order and the model");
@@ -98,9 +98,14 @@ Result<Lens> Lens::make(LensModel model, std::vector<double> coefficients) {
   return lens;
 }
 
+std::vector<double> Lens::coefficients() const {
+  const auto count = static_cast<std::ptrdiff_t>(coefficient_names(model_).size());
+  return {coefficients_.begin(), coefficients_.begin() + count};
+}
+
 template <class Scalar>
 Eigen::Matrix<Scalar, 2, 1> Lens::show(const Eigen::Matrix<Scalar, 2, 1>& seen) const {
-  const std::vector<double>& k = coefficients_;
+  const Coefficients& k = coefficients_;
   const Scalar x = seen.x();
   const Scalar y = seen.y();
   const Scalar r2 = x * x + y * y;
@@ -119,7 +124,7 @@ Eigen::Matrix<Scalar, 2, 1> Lens::show(const Eigen::Matrix<Scalar, 2, 1>& seen) 
 
 // Without the tangential part.
 double Lens::shown_radius(double seen_radius) const {
-  const std::vector<double>& k = coefficients_;
+  const Coefficients& k = coefficients_;
   if (model_ == LensModel::kannala_brandt) return show(Eigen::Vector2d(seen_radius, 0)).x();
   const double r2 = seen_radius * seen_radius;
   return seen_radius * (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) /

@@ -5,6 +5,7 @@
 // pinhole would see them, and where the lens shows them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,10 +34,10 @@ class Lens {
 
   // `coefficients` in the order of their names; those that are left out are 0. Errors:
   // invalid_input: too many, one is not finite, or the image of such a lens folds near its centre.
-  static Result<Lens> make(LensModel model, std::vector<double> coefficients);
+  static Result<Lens> make(LensModel model, const std::vector<double>& coefficients);
 
   LensModel model() const { return model_; }
-  const std::vector<double>& coefficients() const { return coefficients_; }
+  std::vector<double> coefficients() const;  // all of the model's
   bool is_pinhole() const { return model_ == LensModel::pinhole; }
 
   // Where the lens shows what a pinhole sees at `seen`; nothing beyond its field of view, which
@@ -53,15 +54,16 @@ class Lens {
   friend bool operator==(const Lens&, const Lens&) = default;
 
  private:
-  Lens(LensModel model, std::vector<double> coefficients);
+  using Coefficients = std::array<double, 8>;
+  Lens(LensModel model, const Coefficients& coefficients);
   template <class Scalar>
   Eigen::Matrix<Scalar, 2, 1> show(const Eigen::Matrix<Scalar, 2, 1>& seen) const;
   double shown_radius(double seen_radius) const;
   double seen_radius(double shown_radius) const;
 
   LensModel model_ = LensModel::pinhole;
-  std::vector<double> coefficients_;  // all of the model's
-  double widest_ = 0;                 // seen radius at which the field of view ends
+  Coefficients coefficients_{};  // 0 beyond the model's
+  double widest_ = 0;            // seen radius at which the field of view ends
 };
 
 }  // namespace milepost

@@ -79,6 +79,35 @@ class Findings(CommandTest):
         self.assertRegex(result.stderr, r"warning: .*spoilt/trajectory.csv, line 2: the headings vary by")
         self.assertTrue(file.exists())
 
+    def test_the_images_are_the_witness(self):
+        def altitudes(_, row, chance):
+            return {**row, "up_m": float(row["up_m"]) + chance.gauss(0, 0.5)}
+        file = self.folder / "street.map"
+
+        def built(drive):
+            result = run(MAPPER, "build", "--drive", drive, "--map", file, "--json")
+            self.expect_done(result)
+            told = json.loads(result.stdout)
+            return told["drives"][0], [finding["kind"] for finding in told["findings"]], told["maps"]
+        drive, kinds, maps = built(STREET / "street-map")
+        self.assertEqual(kinds, [])
+        self.assertLess(drive["plan_rms_m"], 0.02)
+        self.assertLess(drive["up_rms_m"], 0.02)
+        self.assertGreater(drive["fitting_share"], 0.9)
+        self.assertEqual(maps[0]["file"], str(file))
+        drive, kinds, _ = built(self.spoilt(altitudes))
+        self.assertEqual(kinds, ["altitude_noise", "images_against_altitudes"])
+        self.assertAlmostEqual(drive["up_rms_m"], 0.5, delta=0.15)
+        self.assertLess(drive["plan_rms_m"], 0.05)
+
+    def test_a_drive_that_does_not_fit_fails_and_the_old_map_stays(self):
+        file = self.folder / "street.map"
+        self.expect_done(self.build(STREET / "street-map", file))
+        before = file.read_bytes()
+        self.expect_refused(self.build(STREET / "street-map", file, "--min-fitting-share", 1), 1, "street-map",
+                            "fewer than min-fitting-share: 100 %")
+        self.assertEqual(file.read_bytes(), before)
+
     def test_times_in_milliseconds_are_refused(self):
         def late(_, row, __):
             return {**row, "timestamp_s": f"{1000 * float(row['timestamp_s']):.0f}"}

@@ -116,8 +116,8 @@ TEST(Lens, SeesNothingAtTheHorizonOfAFisheye) {
 }
 
 TEST(Lens, RefusesWhatIsNoLens) {
-  const auto what_of = [](LensModel model, std::vector<double> coefficients) {
-    const Result<Lens> lens = Lens::make(model, std::move(coefficients));
+  const auto what_of = [](LensModel model, const std::vector<double>& coefficients) {
+    const Result<Lens> lens = Lens::make(model, coefficients);
     return lens ? std::string() : lens.error().what;
   };
   EXPECT_EQ(what_of(LensModel::kannala_brandt, {0, 0, 0, 0, 0}), "it has 5 coefficients");
