@@ -10,7 +10,6 @@ namespace milepost::vehicle {
 
 enum class ErrorCode {
   invalid_input,  // an argument or a file of the caller is wrong; retrying does not help
-  unsupported,    // valid, but not implemented; never silently ignored
   not_found,      // the named object does not exist
   gone,           // it belongs to a build of the map that was replaced
   corrupt,        // stored or received bytes violate their format

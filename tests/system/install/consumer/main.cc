@@ -1,5 +1,5 @@
 // A program with only the installed library: it requests its position from a server that does not
-// exist, and must get an error; and it checks that wrong and unsupported input is rejected.
+// exist, and must get an error; and it checks that a lens is taken, and a wrong one rejected.
 #include <milepost/global_localizer.h>
 #include <milepost/localizer.h>
 
@@ -66,11 +66,14 @@ bool is_told_of_no_walls(const std::string& work_directory) {
   return finder.error().code == vehicle::ErrorCode::unavailable;
 }
 
-bool is_told_what_is_not_supported(const std::string& work_directory) {
+bool takes_a_lens_and_no_wrong_one(const std::string& work_directory) {
   vehicle::Camera fisheye = camera();
   fisheye.lens = vehicle::LensModel::kannala_brandt;
+  fisheye.distortion = {-0.01, 0.02};
+  if (!vehicle::Localizer::open(no_server(work_directory), fisheye)) return false;
+  fisheye.distortion = {-500};
   const auto localizer = vehicle::Localizer::open(no_server(work_directory), fisheye);
-  return !localizer && localizer.error().code == vehicle::ErrorCode::unsupported;
+  return !localizer && localizer.error().code == vehicle::ErrorCode::invalid_input;
 }
 
 }  // namespace
@@ -78,6 +81,6 @@ bool is_told_what_is_not_supported(const std::string& work_directory) {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const bool is_right = is_told_that_the_server_is_not_there(argv[1]) &&
-                        is_told_of_no_walls(argv[1]) && is_told_what_is_not_supported(argv[1]);
+                        is_told_of_no_walls(argv[1]) && takes_a_lens_and_no_wrong_one(argv[1]);
   return is_right ? 0 : 1;
 }
