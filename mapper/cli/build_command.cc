@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <set>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -218,9 +219,22 @@ Json json_of(const BuildReport& report) {
   return all;
 }
 
+Error error_of(const Finding& finding) {
+  return {ErrorCode::invalid_input, finding.place(), finding.what, finding.hint};
+}
+
 void tell(const std::string& program, const std::vector<Finding>& findings) {
-  for (const Finding& finding : findings)
-    warn(program, {ErrorCode::invalid_input, finding.place(), finding.what, finding.hint});
+  for (const Finding& finding : findings) warn(program, error_of(finding));
+}
+
+// An error is one line, which names what was found before it.
+int fail_after(const std::string& program, Error error, const std::vector<Finding>& found) {
+  std::set<std::string> kinds;
+  for (const Finding& finding : found) kinds.insert(finding.kind);
+  std::string all;
+  for (const std::string& kind : kinds) all += (all.empty() ? "" : ", ") + kind;
+  if (!all.empty()) error.hint += "; --dry-run tells more: " + all;
+  return fail(program, error);
 }
 
 // What is wrong with the drives, without mapping them.
@@ -233,7 +247,7 @@ int look(const std::string& program, const std::vector<Drive>& drives,
   if (options.json) {
     std::cout << Json{{"findings", json_of(*findings)}, {"maps", Json::array()}}.dump(2) << "\n";
   } else {
-    tell(program, *findings);
+    for (const Finding& finding : *findings) std::cout << error_of(finding).line() << "\n";
   }
   if (!of_lines) return fail(program, of_lines.error());
   if (options.json) return kExitDone;
@@ -272,7 +286,8 @@ int build(const std::string& program, BuildOptions options) {
   }
   const Result<std::vector<Finding>> before = drive_findings(drives, options.jobs);
   if (!before) return fail(program, before.error());
-  tell(program, *before);
+  const bool is_watched = shows_progress();  // otherwise they are told when the map is written
+  if (is_watched) tell(program, *before);
   cv::setNumThreads(1);  // one frame per thread uses the cores better than many threads per frame
   Result<BuildReport> report = [&] {
     ProgressLine progress;
@@ -283,7 +298,8 @@ int build(const std::string& program, BuildOptions options) {
                        return !stop_requested();
                      });
   }();
-  if (!report) return fail(program, report.error());
+  if (!report) return fail_after(program, report.error(), *before);
+  if (!is_watched) tell(program, *before);
   for (const DriveReport& drive : report->drives) {
     const std::vector<Finding> witnessed = witness_findings(drive.folder, drive.witness);
     report->findings.insert(report->findings.end(), witnessed.begin(), witnessed.end());

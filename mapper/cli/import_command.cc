@@ -137,9 +137,9 @@ int import(const std::string& program, ImportCommand command) {
     settings.mounting = Mounting{m[0], m[1], m[2], m[3], m[4], m[5]};
   if (command.receiver_sigma_m > 0) settings.receiver_sigma_m = command.receiver_sigma_m;
   if (!command.camera.empty()) {
-    Result<Camera> camera = read_camera(command.camera);
+    const Result<Camera> camera = read_camera(command.camera);
     if (!camera) return fail(program, camera.error());
-    settings.camera = std::move(*camera);
+    settings.camera = *camera;
   }
   if (settings.name.empty())
     settings.name = std::filesystem::absolute(settings.folder / ".").parent_path().filename();

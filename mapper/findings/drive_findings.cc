@@ -25,6 +25,7 @@ Result<std::vector<Finding>> drive_findings(const std::vector<Drive>& drives, in
   std::atomic<std::size_t> next = 0;
   {
     std::vector<std::jthread> workers;
+    workers.reserve(static_cast<std::size_t>(threads));
     for (int i = 0; i < threads; ++i) {
       workers.emplace_back([&] {
         for (std::size_t d = next++; d < drives.size(); d = next++)

@@ -128,6 +128,7 @@ Result<std::optional<Finding>> clock_offset(const Drive& drive, const std::vecto
   constexpr double kBetter = 0.5;       // of what is left unexplained
   constexpr double kLeastTurnDeg = 10;  // altogether
   std::vector<double> turns_deg;
+  turns_deg.reserve(drive.frames.size());
   for (std::size_t i = 0; i + 1 < drive.frames.size(); ++i)
     turns_deg.push_back(turn_deg(drive.frames[i].heading_deg, drive.frames[i + 1].heading_deg));
   const std::size_t length = std::min(kMaxImages - 1, turns_deg.size());
@@ -150,6 +151,7 @@ Result<std::optional<Finding>> clock_offset(const Drive& drive, const std::vecto
       unexplained(at_best) > kBetter * unexplained(correlation(*seen, recorded, 0)))
     return std::optional<Finding>();
   std::vector<double> elapsed_s;
+  elapsed_s.reserve(steps.size());
   for (const Step& step : steps) elapsed_s.push_back(step.elapsed_s);
   const double off_s = static_cast<double>(best) * median_of(elapsed_s);
   return std::optional(

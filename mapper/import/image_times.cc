@@ -200,6 +200,7 @@ void spread_whole_seconds(std::vector<RecordedImage>& images) {
   for (RecordedImage& image : images) of_second[image.timestamp_s].push_back(&image);
   if (of_second.size() < 2) return;
   std::vector<double> counts;
+  counts.reserve(of_second.size());
   for (const auto& [second, these] : of_second) counts.push_back(static_cast<double>(these.size()));
   const double usual = median_of(counts);
   const double last = of_second.rbegin()->first;

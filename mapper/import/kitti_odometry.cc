@@ -27,11 +27,9 @@ Result<Recording> read_kitti_odometry(const ImportOptions& options) {
   Recording recording;
   recording.has_tilts = true;
   for (std::size_t i = 0; i < lines->size(); ++i) {
-    const std::vector<double>& v = (*lines)[i].numbers;
+    using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
     Eigen::Isometry3d first_from_camera = Eigen::Isometry3d::Identity();
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column)
-        first_from_camera.matrix()(row, column) = v[static_cast<std::size_t>(4 * row + column)];
+    first_from_camera.matrix().topRows<3>() = Eigen::Map<const Rows>((*lines)[i].numbers.data());
     recording.poses.push_back({(*images)[i].timestamp_s,
                                attitude_of(enu_from_camera(first) * first_from_camera, *frame)});
   }

@@ -11,6 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Rotation = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
 // The transform of a calibration file: the lines R and T.
 Result<Eigen::Isometry3d> transform_in(const fs::path& file) {
   const auto rotation = numbers_of_key(file, "R", 9);
@@ -18,9 +20,7 @@ Result<Eigen::Isometry3d> transform_in(const fs::path& file) {
   const auto translation = numbers_of_key(file, "T", 3);
   if (!translation) return translation.error();
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      transform.linear()(row, column) = (*rotation)[static_cast<std::size_t>(3 * row + column)];
+  transform.linear() = Eigen::Map<const Rotation>(rotation->data());
   transform.translation() =
       Eigen::Vector3d((*translation)[0], (*translation)[1], (*translation)[2]);
   return transform;
@@ -37,10 +37,7 @@ Result<Camera> camera_in(const fs::path& calibration) {
   const auto camera_from_velodyne = transform_in(calibration / "calib_velo_to_cam.txt");
   if (!camera_from_velodyne) return camera_from_velodyne.error();
   Eigen::Isometry3d rectified_from_camera = Eigen::Isometry3d::Identity();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      rectified_from_camera.linear()(row, column) =
-          (*rectifying)[static_cast<std::size_t>(3 * row + column)];
+  rectified_from_camera.linear() = Eigen::Map<const Rotation>(rectifying->data());
   // The vehicle's frame with a camera's axes, x right, y down, z forward.
   Eigen::Isometry3d vehicle_from_imu = Eigen::Isometry3d::Identity();
   vehicle_from_imu.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;

@@ -8,8 +8,10 @@ namespace milepost {
 Trajectory::Trajectory(std::vector<RecordedPose> poses, double max_gap_s)
     : poses_(std::move(poses)), max_gap_s_(max_gap_s) {
   std::ranges::stable_sort(poses_, {}, &RecordedPose::timestamp_s);
-  const auto repeated = std::ranges::unique(poses_, {}, &RecordedPose::timestamp_s);
-  poses_.erase(repeated.begin(), repeated.end());
+  const auto is_repeated = [](const RecordedPose& a, const RecordedPose& b) {
+    return a.timestamp_s == b.timestamp_s;
+  };
+  poses_.erase(std::unique(poses_.begin(), poses_.end(), is_repeated), poses_.end());
   for (std::size_t i = 1; i < poses_.size(); ++i) {
     const double from_s = poses_[i - 1].timestamp_s;
     const double to_s = poses_[i].timestamp_s;

@@ -178,7 +178,9 @@ void catch_stop_signals() {
 
 bool stop_requested() { return stop_signals > 0; }
 
-ProgressLine::ProgressLine() : on_terminal_(::isatty(STDERR_FILENO) == 1) {}
+bool shows_progress() { return ::isatty(STDERR_FILENO) == 1; }
+
+ProgressLine::ProgressLine() : on_terminal_(shows_progress()) {}
 
 ProgressLine::~ProgressLine() {
   if (on_terminal_) std::cerr << "\r\x1b[K" << std::flush;

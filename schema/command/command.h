@@ -83,6 +83,10 @@ std::ostream& report_stream(const std::string& output);
 void catch_stop_signals();
 bool stop_requested();
 
+// Whether someone watches: standard error is a terminal. There a command may tell at once what
+// otherwise waits for its end, since a failure is one line.
+bool shows_progress();
+
 // A progress line, rewritten in place on a terminal; no output elsewhere.
 class ProgressLine {
  public:

@@ -66,7 +66,8 @@ const std::vector<std::string>& coefficient_names(LensModel model) {
 
 Lens::Lens(LensModel model, const Coefficients& coefficients)
     : model_(model), coefficients_(coefficients) {
-  for (double next = kStep; next <= kWidestRadius; next += kStep) {
+  for (int step = 1; step * kStep <= kWidestRadius; ++step) {
+    const double next = step * kStep;
     const double growth = (shown_radius(next) - shown_radius(widest_)) / (next - widest_);
     if (!(growth >= kLeastGrowth)) break;
     widest_ = next;
@@ -106,8 +107,8 @@ std::vector<double> Lens::coefficients() const {
 template <class Scalar>
 Eigen::Matrix<Scalar, 2, 1> Lens::show(const Eigen::Matrix<Scalar, 2, 1>& seen) const {
   const Coefficients& k = coefficients_;
-  const Scalar x = seen.x();
-  const Scalar y = seen.y();
+  const Scalar& x = seen.x();
+  const Scalar& y = seen.y();
   const Scalar r2 = x * x + y * y;
   if (model_ == LensModel::kannala_brandt) {
     const Scalar by_radius = angle_by_radius(r2);

@@ -70,7 +70,17 @@ class Findings(CommandTest):
                 found = self.found_in(self.spoilt(change, kind), code=1 if kind == "exchanged_axes" else 0)
                 self.assertIn(kind, [finding["kind"] for finding in found])
 
-    def test_a_build_tells_them_first_and_goes_on(self):
+    def test_a_build_that_fails_is_one_line_that_names_them(self):
+        def reversed_by_180(_, row, __):
+            return {**row, "heading_deg": float(row["heading_deg"]) + 180}
+        drive = self.spoilt(reversed_by_180)
+        self.expect_refused(self.build(drive, self.folder / "street.map"), 1, "does not move forwards",
+                            "--dry-run tells more: reversed_camera")
+        result = run(MAPPER, "build", "--dry-run", "--drive", drive)
+        self.expect_refused(result, 1, "does not move forwards")
+        self.assertIn("the headings point against the direction of travel", result.stdout)
+
+    def test_a_build_tells_them_and_goes_on(self):
         def noise(_, row, chance):
             return {**row, "heading_deg": float(row["heading_deg"]) + chance.gauss(0, 5)}
         file = self.folder / "street.map"
