@@ -138,6 +138,18 @@ class Import(CommandTest):
         self.expect_refused(self.run_import("csv", *self.with_images(table), "--crs", "EPSG:1"), 1, "--crs", "EPSG:1")
         self.assertFalse(self.drive.exists())
 
+    def test_heights_above_the_sea(self):
+        """EGM96, whose grid comes with Debian's PROJ: 48 m below the heights above the ellipsoid here."""
+        text = "".join(f"{latitude:.11f} {longitude:.11f} {height:.5f}\n" for longitude, latitude, height in self.lon_lat_h)
+        result = subprocess.run(["cs2cs", "-d", "6", "EPSG:4979", "EPSG:25832+5773"], input=text, capture_output=True, text=True,
+                                check=True)
+        points = [line.split() for line in result.stdout.splitlines()]
+        self.assertAlmostEqual(float(points[0][2]) - self.lon_lat_h[0][2], -48, delta=1)
+        table = self.table(("time", "x", "y", "z", "heading"), [(f"{pose.time_s:.6f}", *point, pose.heading_deg)
+                                                                for pose, point in zip(self.poses, points)])
+        self.expect_imported(self.run_import("csv", *self.with_images(table), "--crs", "EPSG:25832+5773"))
+        self.expect_frames(within_m=0.005)
+
     def test_sbet(self):
         # No program of Debian writes this one.
         day_s = EPOCH_S - EPOCH_S % 86400
