@@ -9,6 +9,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "mapper/cli/commands.h"
+#include "mapper/cli/finding_output.h"
 #include "mapper/codebook/codebook.h"
 #include "mapper/findings/drive_findings.h"
 #include "mapper/findings/witness_findings.h"
@@ -178,19 +179,6 @@ Result<std::optional<Division>> division_of(const BuildOptions& options) {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const std::vector<Finding>& findings) {
-  Json all = Json::array();
-  for (const Finding& finding : findings) {
-    all.push_back({{"kind", finding.kind},
-                   {"where", finding.where},
-                   {"line", finding.line},
-                   {"count", finding.count},
-                   {"what", finding.what},
-                   {"hint", finding.hint}});
-  }
-  return all;
-}
-
 // What the images of each drive say of its poses.
 Json json_of(const std::vector<DriveReport>& drives) {
   Json all = Json::array();
@@ -217,14 +205,6 @@ Json json_of(const BuildReport& report) {
                    {"tiles", map.tiles}});
   }
   return all;
-}
-
-Error error_of(const Finding& finding) {
-  return {ErrorCode::invalid_input, finding.place(), finding.what, finding.hint};
-}
-
-void tell(const std::string& program, const std::vector<Finding>& findings) {
-  for (const Finding& finding : findings) warn(program, error_of(finding));
 }
 
 // An error is one line, which names what was found before it.
@@ -287,7 +267,7 @@ int build(const std::string& program, BuildOptions options) {
   const Result<std::vector<Finding>> before = drive_findings(drives, options.jobs);
   if (!before) return fail(program, before.error());
   const bool is_watched = shows_progress();  // otherwise they are told when the map is written
-  if (is_watched) tell(program, *before);
+  if (is_watched) warn_of(program, *before);
   cv::setNumThreads(1);  // one frame per thread uses the cores better than many threads per frame
   Result<BuildReport> report = [&] {
     ProgressLine progress;
@@ -299,12 +279,12 @@ int build(const std::string& program, BuildOptions options) {
                      });
   }();
   if (!report) return fail_after(program, report.error(), *before);
-  if (!is_watched) tell(program, *before);
+  if (!is_watched) warn_of(program, *before);
   for (const DriveReport& drive : report->drives) {
     const std::vector<Finding> witnessed = witness_findings(drive.folder, drive.witness);
     report->findings.insert(report->findings.end(), witnessed.begin(), witnessed.end());
   }
-  tell(program, report->findings);
+  warn_of(program, report->findings);
   for (const DriveReport& drive : report->drives) {
     if (drive.frames > 0 && drive.tracklets == 0) warn(program, nothing_found(drive));
   }

@@ -3,11 +3,11 @@
 #include <iostream>
 
 #include "mapper/cli/commands.h"
+#include "mapper/cli/finding_output.h"
 #include "mapper/findings/drive_findings.h"
 #include "mapper/import/import_drive.h"
 #include "mapper/import/layouts.h"
 #include "schema/base/digits.h"
-#include "schema/base/ids.h"
 #include "schema/command/command.h"
 #include "schema/drive/description.h"
 
@@ -39,7 +39,6 @@ struct ImportCommand {
   std::string camera;
   std::vector<double> origin_deg;
   std::vector<double> mounting;
-  double receiver_sigma_m = 0;
 };
 
 void add_import_options(CLI::App& app, ImportCommand& command) {
@@ -85,7 +84,7 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
       ->option_text("LAT,LON,ALT");
   add_number(app, "--origin-heading-deg", options.origin_heading_deg, "DEG",
              "Heading of the local frame: of KITTI's first camera, of TUM's y axis", -360, 360);
-  add_number(app, "--day-s", options.utc_day_s, "S",
+  add_number(app, "--day-s", command.settings.day_s, "S",
              "Added to the trajectory's times: the begin of its day or week", -1e10, 1e10);
   add_number(app, "--time-offset-s", command.settings.time_offset_s, "S",
              "Added to the images' times", -1e10, 1e10);
@@ -93,11 +92,11 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
              "Images between poses that are farther apart are left out", 0.001, 3600);
   app.add_flag("--spread-seconds", command.settings.spread_seconds,
                "Images are stamped with whole seconds: spread those of each second evenly");
-  add_number(
-      app, "--receiver-sigma-m", command.receiver_sigma_m, "M",
-      "Write gps.csv, too, for drives to localize: the trajectory's positions, one a second, "
-      "with this standard deviation",
-      0.01, 1000);
+  app.add_option("--receiver-sigma-m", command.settings.receiver_sigma_m,
+                 "Write gps.csv, too, for drives to localize: the trajectory's positions, one a "
+                 "second, with this standard deviation (0.01 to 1000; nmea and gpx: default 5)")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->option_text("M");
   app.add_option("--name", command.settings.name, "Name of the drive (default: of its folder)")
       ->option_text("NAME");
   app.add_flag("--copy", command.settings.copy_images, "Copy the images");
@@ -135,7 +134,6 @@ int import(const std::string& program, ImportCommand command) {
   DriveSettings& settings = command.settings;
   if (const std::vector<double>& m = command.mounting; !m.empty())
     settings.mounting = Mounting{m[0], m[1], m[2], m[3], m[4], m[5]};
-  if (command.receiver_sigma_m > 0) settings.receiver_sigma_m = command.receiver_sigma_m;
   if (!command.camera.empty()) {
     const Result<Camera> camera = read_camera(command.camera);
     if (!camera) return fail(program, camera.error());
@@ -153,8 +151,7 @@ int import(const std::string& program, ImportCommand command) {
     warn(program, {ErrorCode::invalid_input, folder, note, ""});
   const Result<std::vector<Finding>> findings = drive_findings(report->drive);
   if (!findings) return fail(program, findings.error());
-  for (const Finding& finding : *findings)
-    warn(program, {ErrorCode::invalid_input, finding.place(), finding.what, finding.hint});
+  warn_of(program, *findings);
   const std::vector<Frame>& frames = report->drive.frames;
   std::cout << folder << ": " << frames.size() << " frames in "
             << fixed(frames.back().timestamp_s - frames.front().timestamp_s, 1) << " s\n";

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mapper/cli/commands.h"
+#include "mapper/cli/finding_output.h"
 #include "mapper/inspect/inspection.h"
 #include "mapper/inspect/verification.h"
 #include "schema/command/command.h"
@@ -34,10 +35,8 @@ int verify_map_file(const std::string& program, const MapFileOptions& options) {
   if (!map) return fail(program, map.error());
   const std::vector<Finding> found = contradictions_in(*map);
   if (options.json) {
-    auto all = nlohmann::ordered_json::array();
-    for (const Finding& finding : found)
-      all.push_back({{"kind", finding.kind}, {"where", finding.where}, {"what", finding.what}});
-    std::cout << nlohmann::ordered_json{{"build", map->build()}, {"contradictions", all}}.dump(2)
+    std::cout << nlohmann::ordered_json{{"build", map->build()}, {"contradictions", json_of(found)}}
+                     .dump(2)
               << "\n";
   } else {
     for (const Finding& finding : found)

@@ -18,11 +18,6 @@ constexpr double kMaxNoiseDeg = 1.5;
 constexpr double kFarDeg = 30;
 constexpr double kMaxFarShare = 0.02;
 
-// A camera's headings as those of its vehicle, if it is level.
-double vehicle_heading_deg(const Drive& drive, std::size_t frame) {
-  return drive.frames[frame].heading_deg - drive.camera.mounting.yaw_deg;
-}
-
 // What could have been recorded instead of positions or headings.
 struct Mistake {
   const char* kind;
@@ -134,8 +129,8 @@ class HeadingCheck {
  private:
   // Of the middle of a chord.
   double heading_deg(const Chord& chord, double unit) const {
-    const double from_deg = unit * vehicle_heading_deg(drive_, chord.from);
-    const double to_deg = unit * vehicle_heading_deg(drive_, chord.to);
+    const double from_deg = unit * recorded_pose(drive_, drive_.frames[chord.from]).heading_deg;
+    const double to_deg = unit * recorded_pose(drive_, drive_.frames[chord.to]).heading_deg;
     return from_deg + turn_deg(from_deg, to_deg) / 2;
   }
 

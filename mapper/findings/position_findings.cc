@@ -6,6 +6,7 @@
 
 #include "mapper/findings/rounded_positions.h"
 #include "mapper/findings/trajectory_place.h"
+#include "mapper/geodata/between.h"
 #include "schema/base/digits.h"
 #include "schema/base/median.h"
 
@@ -193,9 +194,7 @@ class PositionCheck {
     const Frame& to = *after;
     const Frame& from = *(after - 1);
     const double part = (timestamp_s - from.timestamp_s) / (to.timestamp_s - from.timestamp_s);
-    const LocalFrame local(from.position);
-    const EnuPoint way = local.enu_from_geo(to.position);
-    return local.geo_from_enu({part * way.east_m, part * way.north_m, part * way.up_m});
+    return position_between(from.position, to.position, part);
   }
 
   void receiver_apart() {

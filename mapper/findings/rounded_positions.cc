@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "mapper/findings/steps.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -21,14 +22,15 @@ PlanCoordinates as_given(const Drive& drive) {
     constexpr double kMetresOfDegree = 111320;  // of latitude, about
     given.metres_of_unit = kMetresOfDegree;
     for (const Frame& frame : drive.frames) {
-      given.a.push_back(frame.position.latitude_deg);
-      given.b.push_back(frame.position.longitude_deg);
+      const GeoPoint position = recorded_pose(drive, frame).position;
+      given.a.push_back(position.latitude_deg);
+      given.b.push_back(position.longitude_deg);
     }
     return given;
   }
   const LocalFrame local(*drive.origin);
   for (const Frame& frame : drive.frames) {
-    const EnuPoint enu = local.enu_from_geo(frame.position);
+    const EnuPoint enu = local.enu_from_geo(recorded_pose(drive, frame).position);
     given.a.push_back(enu.east_m);
     given.b.push_back(enu.north_m);
   }

@@ -22,6 +22,9 @@ struct Step {
 // Below this a step's direction tells nothing.
 inline constexpr double kLeastStepM = 0.3;
 
+// The pose of a frame as it was recorded: the camera's, or with a mounting the vehicle's.
+GeoAttitude recorded_pose(const Drive& drive, const Frame& frame);
+
 std::vector<Step> steps_of(const Drive& drive);
 
 // The standard deviation of noise from frame to frame, by how far each value lies from the mean of

@@ -1,6 +1,6 @@
 #include <ogrsf_frmts.h>
 
-#include <cstdlib>
+#include <cmath>
 
 #include "mapper/geodata/gdal.h"
 #include "mapper/import/image_times.h"
@@ -22,10 +22,10 @@ std::optional<double> time_of(OGRFeature& point) {
   if (field < 0 ||
       point.GetFieldAsDateTime(field, &year, &month, &day, &hour, &minute, &second, &zone) == 0)
     return std::nullopt;
-  char text[64];
-  std::snprintf(text, sizeof text, "%04d-%02d-%02dT%02d:%02d:%06.3f", year, month, day, hour,
-                minute, static_cast<double>(second));
-  const auto seconds = seconds_of_date(text);
+  // A float has milliseconds of a minute, and a little beside them.
+  const double in_milliseconds = std::round(1000 * static_cast<double>(second)) / 1000;
+  const auto seconds = seconds_of_date(year, static_cast<unsigned>(month),
+                                       static_cast<unsigned>(day), hour, minute, in_milliseconds);
   constexpr int kUtc = 100;
   constexpr double kQuarterHourS = 900;
   if (!seconds || zone <= 1) return seconds;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -13,19 +13,12 @@
 #include "schema/base/csv.h"
 #include "schema/base/file.h"
 #include "schema/base/median.h"
+#include "schema/base/number.h"
 
 namespace milepost {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<double> number_of(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
 
 // Seconds of a number that counts a smaller unit since 1970, or seconds.
 double seconds_since_1970(double value) {
@@ -35,7 +28,7 @@ double seconds_since_1970(double value) {
 }
 
 std::optional<double> time_of(const std::string& text) {
-  if (const auto value = number_of(text)) return value;
+  if (const auto value = finite_number(text)) return value;
   return seconds_of_date(text);
 }
 
@@ -114,7 +107,7 @@ bool begins_with_columns(const fs::path& file) {
 Result<std::vector<RecordedImage>> from_names(const std::vector<fs::path>& files) {
   std::vector<RecordedImage> images;
   for (const fs::path& file : files) {
-    const auto time = number_of(file.stem().string());
+    const auto time = finite_number(file.stem().string());
     if (!time) {
       return wrong(file, 0, "its name is no time", "name the images' times with --times FILE");
     }
@@ -145,10 +138,15 @@ std::optional<double> seconds_of_date(std::string_view text) {
       !take(minute, ":") || !take(second, ""))
     return std::nullopt;
   if (text == "Z") text.remove_prefix(1);
+  if (!text.empty()) return std::nullopt;
+  return seconds_of_date(year, month, day, hour, minute, second);
+}
+
+std::optional<double> seconds_of_date(int year, unsigned month, unsigned day, int hour, int minute,
+                                      double second) {
   const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month),
                                          std::chrono::day(day)};
-  if (!text.empty() || !date.ok() || hour > 23 || minute > 59 || !(second < 61))
-    return std::nullopt;
+  if (!date.ok() || hour > 23 || minute > 59 || !(second < 61)) return std::nullopt;
   const auto days = std::chrono::sys_days(date).time_since_epoch().count();
   return 86400.0 * static_cast<double>(days) + 3600.0 * hour + 60.0 * minute + second;
 }

@@ -13,6 +13,8 @@ namespace milepost {
 
 // Seconds since 1970 of "2011-09-30 12:40:59.123", with 'T' or a blank, with or without 'Z'.
 std::optional<double> seconds_of_date(std::string_view text);
+std::optional<double> seconds_of_date(int year, unsigned month, unsigned day, int hour, int minute,
+                                      double second);
 
 // Images of a folder, by name. Errors: not_found, invalid_input (none).
 Result<std::vector<std::filesystem::path>> images_in(const std::filesystem::path& folder);

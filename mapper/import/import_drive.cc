@@ -122,6 +122,7 @@ Result<ImportReport> import_drive(Recording recording, const DriveSettings& sett
     return Error{ErrorCode::invalid_input, "the trajectory",
                  "has " + std::to_string(count) + " poses, not two or more", "name another file"};
   };
+  for (RecordedPose& pose : recording.poses) pose.timestamp_s += settings.day_s;
   if (recording.poses.size() < 2) return no_poses(recording.poses.size());
   Trajectory trajectory(std::move(recording.poses), settings.max_gap_s);
   if (trajectory.poses().size() < 2) return no_poses(trajectory.poses().size());
@@ -141,10 +142,7 @@ Result<ImportReport> import_drive(Recording recording, const DriveSettings& sett
   drive.camera = *camera;
   for (const RecordedImage& image : recording.images) {
     const auto vehicle = trajectory.at(image.timestamp_s);
-    if (!vehicle) {
-      ++report.left_out;
-      continue;
-    }
+    if (!vehicle) continue;
     const GeoAttitude at = camera_of_vehicle(*vehicle, drive.camera.mounting);
     drive.frames.push_back(
         {"", image.timestamp_s, at.position, at.heading_deg, at.pitch_deg, at.roll_deg});
@@ -160,8 +158,8 @@ Result<ImportReport> import_drive(Recording recording, const DriveSettings& sett
   }
   const std::vector<std::string> names = frame_names(kept);
   for (std::size_t i = 0; i < kept.size(); ++i) drive.frames[i].filename = names[i];
-  if (report.left_out > 0) {
-    report.notes.push_back(std::to_string(report.left_out) + " of " +
+  if (kept.size() < recording.images.size()) {
+    report.notes.push_back(std::to_string(recording.images.size() - kept.size()) + " of " +
                            std::to_string(recording.images.size()) +
                            " images have no pose and are left out");
   }

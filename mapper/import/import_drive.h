@@ -17,7 +17,8 @@ struct DriveSettings {
   std::string name;              // empty: the folder's
   std::string source;            // one line
   bool copy_images = false;      // otherwise they are referred to by symbolic links
-  double time_offset_s = 0;      // added to the images' times
+  double day_s = 0;              // added to the poses' times
+  double time_offset_s = 0;      // added to the images'
   double max_gap_s = 1;          // between poses; images in longer gaps are left out
   bool spread_seconds = false;   // images stamped with whole seconds
   std::optional<Camera> camera;  // in the place of the recording's
@@ -27,7 +28,6 @@ struct DriveSettings {
 
 struct ImportReport {
   Drive drive;                     // as it is read back
-  std::size_t left_out = 0;        // images without a pose
   std::vector<std::string> notes;  // what was left out and why, a line each
 };
 

@@ -6,6 +6,7 @@
 #include "mapper/import/image_times.h"
 #include "mapper/import/layouts.h"
 #include "schema/base/file.h"
+#include "schema/base/number.h"
 
 namespace milepost {
 namespace {
@@ -34,12 +35,7 @@ std::optional<std::vector<std::string>> fields_of(std::string line) {
 }
 
 std::optional<double> number_in(const std::vector<std::string>& fields, std::size_t index) {
-  if (index >= fields.size()) return std::nullopt;
-  const std::string& text = fields[index];
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  return index < fields.size() ? finite_number(fields[index]) : std::nullopt;
 }
 
 // hhmmss.sss as seconds of the day.
@@ -63,10 +59,11 @@ std::optional<double> degrees_of(const std::vector<std::string>& fields, std::si
 
 // The begin of the day of ddmmyy.
 std::optional<double> day_of(const std::vector<std::string>& fields, std::size_t index) {
-  if (index >= fields.size() || fields[index].size() != 6) return std::nullopt;
-  const std::string& text = fields[index];
-  return seconds_of_date("20" + text.substr(4, 2) + "-" + text.substr(2, 2) + "-" +
-                         text.substr(0, 2) + "T00:00:00");
+  const auto value = number_in(fields, index);
+  if (!value || fields[index].size() != 6) return std::nullopt;
+  const auto ddmmyy = static_cast<unsigned>(*value);
+  return seconds_of_date(2000 + static_cast<int>(ddmmyy % 100), ddmmyy / 100 % 100, ddmmyy / 10000,
+                         0, 0, 0);
 }
 
 }  // namespace
@@ -116,7 +113,6 @@ Result<Recording> read_nmea(const ImportOptions& options) {
     return Error{ErrorCode::invalid_input, options.trajectory.string(),
                  "holds no GGA sentence with a position", "record GGA sentences"};
   }
-  for (RecordedPose& pose : recording.poses) pose.timestamp_s += options.utc_day_s;
   auto images = timed_images(options.images, options.times);
   if (!images) return images.error();
   recording.images = std::move(*images);

@@ -1,10 +1,9 @@
 #include "mapper/import/number_lines.h"
 
-#include <charconv>
-#include <cmath>
 #include <sstream>
 
 #include "schema/base/file.h"
+#include "schema/base/number.h"
 
 namespace milepost {
 namespace {
@@ -14,13 +13,12 @@ Result<std::vector<double>> numbers_in(const std::string& text, const std::strin
   std::vector<double> numbers;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+    const auto value = finite_number(word);
+    if (!value) {
       return Error{ErrorCode::invalid_input, place,
                    "'" + word.substr(0, 40) + "' is not a finite number", "correct the line"};
     }
-    numbers.push_back(value);
+    numbers.push_back(*value);
   }
   if (numbers.size() >= least) return numbers;
   return Error{

@@ -43,7 +43,6 @@ struct ImportOptions {
   std::vector<std::string> columns;   // csv: what=NAME
   std::optional<GeoPoint> origin;     // of a local frame
   double origin_heading_deg = 0;      // of its forward axis
-  double utc_day_s = 0;               // added to times of day or week
 };
 
 }  // namespace milepost

@@ -40,8 +40,7 @@ Result<Recording> read_sbet(const ImportOptions& options) {
     if (!is_sound)
       return wrong("record " + std::to_string(at / sizeof(Record) + 1) + " is no pose");
     recording.poses.push_back(
-        {record[0] + options.utc_day_s,
-         {position, wrapped_360(degrees(9) - degrees(10)), degrees(8), degrees(7)}});
+        {record[0], {position, wrapped_360(degrees(9) - degrees(10)), degrees(8), degrees(7)}});
   }
   auto images = timed_images(options.images, options.times);
   if (!images) return images.error();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "mapper/geodata/between.h"
+
 namespace milepost {
 
 Trajectory::Trajectory(std::vector<RecordedPose> poses, double max_gap_s)
@@ -34,9 +36,7 @@ std::optional<GeoAttitude> Trajectory::at(double timestamp_s) const {
   };
   const GeoAttitude& a = from.attitude;
   const GeoAttitude& b = to.attitude;
-  const LocalFrame local(a.position);
-  const EnuPoint way = local.enu_from_geo(b.position);
-  return GeoAttitude{local.geo_from_enu({part * way.east_m, part * way.north_m, part * way.up_m}),
+  return GeoAttitude{position_between(a.position, b.position, part),
                      wrapped_360(between(a.heading_deg, b.heading_deg)),
                      between(a.pitch_deg, b.pitch_deg), between(a.roll_deg, b.roll_deg)};
 }
@@ -49,7 +49,7 @@ void Trajectory::set_headings_by_motion() {
   std::optional<double> latest_deg;
   std::size_t behind = 0;
   std::size_t ahead = 0;
-  std::vector<std::size_t> before_any;
+  std::size_t unknown = 0;  // at the beginning
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     while (behind + 1 < i && apart_m(behind + 1, i) >= kReachM) ++behind;
     ahead = std::max(ahead, i);
@@ -61,12 +61,11 @@ void Trajectory::set_headings_by_motion() {
     if (latest_deg) {
       poses_[i].attitude.heading_deg = *latest_deg;
     } else {
-      before_any.push_back(i);
+      ++unknown;
     }
   }
-  for (const std::size_t i : before_any)
-    if (before_any.size() < poses_.size())
-      poses_[i].attitude.heading_deg = poses_[before_any.size()].attitude.heading_deg;
+  for (std::size_t i = 0; i < unknown && unknown < poses_.size(); ++i)
+    poses_[i].attitude.heading_deg = poses_[unknown].attitude.heading_deg;
 }
 
 }  // namespace milepost

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "schema/base/ids.h"
+#include "schema/base/median.h"
 
 namespace milepost {
 namespace {
@@ -29,10 +30,7 @@ double median_spacing_m(const Drive& drive) {
     const double moved_m = spacing_m(drive.frames[i - 1], drive.frames[i]);
     if (moved_m > 0.1) spacings_m.push_back(moved_m);
   }
-  if (spacings_m.empty()) return 0;
-  const auto middle = spacings_m.begin() + static_cast<std::ptrdiff_t>(spacings_m.size() / 2);
-  std::nth_element(spacings_m.begin(), middle, spacings_m.end());
-  return *middle;
+  return spacings_m.empty() ? 0 : median_of(std::move(spacings_m));
 }
 
 std::string metres_text(double length_m) { return std::to_string(std::lround(length_m)) + " m"; }

@@ -10,6 +10,7 @@
 
 #include "mapper/findings/rounded_positions.h"
 #include "schema/base/file.h"
+#include "schema/base/median.h"
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
@@ -69,9 +70,7 @@ bool is_one_way(const Drive& a, const std::vector<std::size_t>& of_a, const Driv
     std::vector<double> values;
     values.reserve(offsets.size());
     for (const Eigen::Vector3d& offset : offsets) values.push_back(offset[axis]);
-    std::ranges::nth_element(values,
-                             values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
-    usual[axis] = values[values.size() / 2];
+    usual[axis] = median_of(std::move(values));
   }
   if (usual.norm() > baseline_m) return false;
   const auto same = std::ranges::count_if(offsets, [&](const Eigen::Vector3d& offset) {

@@ -1,11 +1,10 @@
 #include "schema/base/csv.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <numeric>
 
 #include "schema/base/file.h"
+#include "schema/base/number.h"
 
 namespace milepost {
 namespace {
@@ -155,14 +154,13 @@ Result<double> CsvTable::number(std::size_t row, std::size_t column) const {
   if (digits.starts_with('+')) digits.erase(0, 1);
   if (separator_ != ',' && digits.find('.') == std::string::npos)
     std::ranges::replace(digits, ',', '.');  // a decimal comma
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
+  const auto value = finite_number(digits);
+  if (!value) {
     return Error{ErrorCode::invalid_input, place(row),
                  columns_[column] + " is '" + cell + "', not a finite number",
                  "correct or remove the row"};
   }
-  return value;
+  return *value;
 }
 
 std::string CsvTable::place(std::size_t row) const {

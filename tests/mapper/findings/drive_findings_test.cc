@@ -207,6 +207,24 @@ TEST(DriveFindings, PositionsThatAreRounded) {
               ::testing::Contains("rounded_positions"));
 }
 
+TEST(DriveFindings, AMountingHidesNothingOfWhatWasRecorded) {
+  Drive drive = changed([](Frame& frame, std::mt19937&) {
+    const auto rounded = [](double deg) { return std::round(deg * 1e5) / 1e5; };
+    frame.position.latitude_deg = rounded(frame.position.latitude_deg);
+    frame.position.longitude_deg = rounded(frame.position.longitude_deg);
+  });
+  drive.camera.mounting = {1.2, 0.3, 0.5, 3, -1, 0};
+  for (Frame& frame : drive.frames) {
+    const GeoAttitude camera =
+        camera_of_vehicle({frame.position, frame.heading_deg}, drive.camera.mounting);
+    frame.position = camera.position;
+    frame.heading_deg = camera.heading_deg;
+    frame.pitch_deg = camera.pitch_deg;
+    frame.roll_deg = camera.roll_deg;
+  }
+  EXPECT_THAT(kinds_of(drive), ::testing::Contains("rounded_positions"));
+}
+
 TEST(DriveFindings, PositionsThatComeLessOftenThanFrames) {
   Drive drive = sound_drive();
   for (std::size_t i = 0; i < drive.frames.size(); ++i)
