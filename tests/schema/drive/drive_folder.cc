@@ -1,5 +1,6 @@
 #include "tests/schema/drive/drive_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,6 +9,8 @@
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+
+#include "schema/drive/drive.h"
 
 namespace milepost {
 namespace fs = std::filesystem;
@@ -73,6 +76,14 @@ void DriveFolder::replace_line(const std::string& name, std::size_t line,
   for (std::string row; std::getline(rows, row);) content += (++number == line ? text : row) + "\n";
   ASSERT_GE(number, line);
   write(name, content);
+}
+
+std::string refusal(const DriveFolder& folder) {
+  const Result<Drive> drive = read_drive(folder.path());
+  if (drive) return "accepted";
+  EXPECT_THAT(drive.error().line(), ::testing::Not(::testing::HasSubstr("\n")));
+  EXPECT_FALSE(drive.error().hint.empty());
+  return drive.error().line();
 }
 
 }  // namespace milepost

@@ -27,4 +27,7 @@ class DriveFolder {
   testing::TempFolder folder_;
 };
 
+// The one-line error of a bad drive.
+std::string refusal(const DriveFolder& folder);
+
 }  // namespace milepost
