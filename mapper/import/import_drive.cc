@@ -97,7 +97,7 @@ std::vector<GpsFix> receiver_of(const Trajectory& trajectory, double sigma_m) {
 
 // Writes the drive with its images, and reads it back.
 Result<Drive> write_with_images(const Drive& drive, const std::vector<RecordedImage>& images,
-                                const DriveSettings& settings) {
+                                ImageContainer* container, const DriveSettings& settings) {
   std::error_code error;
   fs::create_directories(settings.folder / kImages, error);
   if (error) {
@@ -107,7 +107,9 @@ Result<Drive> write_with_images(const Drive& drive, const std::vector<RecordedIm
   }
   for (std::size_t i = 0; i < images.size(); ++i) {
     const fs::path frame = settings.folder / kImages / drive.frames[i].filename;
-    const Status placed = place_image(images[i].file, frame, settings.copy_images);
+    const Status placed = container == nullptr
+                              ? place_image(images[i].file, frame, settings.copy_images)
+                              : container->write(images[i], frame);
     if (!placed) return placed.error();
   }
   if (const Status written = write_drive(drive, settings.folder); !written) return written.error();
@@ -174,7 +176,7 @@ Result<ImportReport> import_drive(Recording recording, const DriveSettings& sett
   if (!sigma_m && recording.is_receivers) sigma_m = 5;
   if (sigma_m) drive.gps = receiver_of(trajectory, *sigma_m);
 
-  Result<Drive> written = write_with_images(drive, kept, settings);
+  Result<Drive> written = write_with_images(drive, kept, recording.container.get(), settings);
   if (!written) {
     std::error_code ignored;  // nothing half done is left
     for (const fs::path& entry : {fs::path(kImages), fs::path("drive.json"),

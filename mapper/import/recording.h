@@ -1,7 +1,9 @@
 // What an import reads from another program's recording, before it becomes a drive.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,8 +21,22 @@ struct RecordedPose {
 };
 
 struct RecordedImage {
-  std::filesystem::path file;
+  std::filesystem::path file;  // of an image in a container: its name, without a folder
   double timestamp_s = 0;
+  std::size_t entry = 0;  // of an image in a container: which
+};
+
+// A file that holds the images: a video, a bag.
+class ImageContainer {
+ public:
+  ImageContainer() = default;
+  ImageContainer(const ImageContainer&) = delete;
+  ImageContainer& operator=(const ImageContainer&) = delete;
+  virtual ~ImageContainer() = default;
+
+  // Writes one image as a file of its own. Entries are asked for in the order of the images' times.
+  // Errors: io, corrupt.
+  virtual Status write(const RecordedImage& image, const std::filesystem::path& file) = 0;
 };
 
 struct Recording {
@@ -28,7 +44,9 @@ struct Recording {
   bool has_headings = true;         // false: to be told by the motion
   bool has_tilts = false;           // pitch and roll are recorded
   std::vector<RecordedImage> images;
-  std::optional<Camera> camera;  // with the mounting, if the layout tells them
+  std::shared_ptr<ImageContainer> container;  // null: each image is a file
+  // With the mounting, if the layout tells them; without a size: that of the images' files.
+  std::optional<Camera> camera;
   bool is_receivers = false;     // the poses are a navigation receiver's
 };
 
