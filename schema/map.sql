@@ -3,7 +3,7 @@
 PRAGMA application_id = 1297108273;  -- 0x4D504D31, "MPM1"
 PRAGMA user_version = 3;             -- of the format
 
--- build, manifest, feature, west_deg, south_deg, east_deg, north_deg
+-- build, manifest, feature, west_deg, south_deg, east_deg, north_deg; datum and mapping if there are
 CREATE TABLE meta (
   key   TEXT PRIMARY KEY,
   value ANY NOT NULL

@@ -123,6 +123,27 @@ class TilePatience {
   double left_s_ = kAllS;
 };
 
+// That the drive's positions are of the datum of the maps that it is localized on.
+class SameDatum {
+ public:
+  SameDatum(const Drive& drive, MapSource& source) : drive_(drive), source_(source) {}
+
+  // Errors: invalid_input. A map that cannot be described now is not checked.
+  Status check(const Fix& fix) {
+    if (!drive_.datum.is_stated() || !fix.along_m || fix.version == checked_) return ok_status();
+    const Result<MapDescription> map = source_.describe(fix.version);
+    if (!map) return ok_status();
+    checked_ = fix.version;
+    return check_agree(drive_.datum, (drive_.folder / "drive.json").string(), map->datum,
+                       "map '" + fix.version.map + "'");
+  }
+
+ private:
+  const Drive& drive_;
+  MapSource& source_;
+  MapVersion checked_;
+};
+
 // Processes one frame with one localizer. An error of the source affects this frame only, except
 // before the first fix, unless the source may become available by waiting.
 Result<FrameFix> run_frame(const Frame& frame, FrameContent& content, const TilePatience& patience,
@@ -176,6 +197,7 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
   const FrameReader frames(drive);
   SensorLog sensors(drive);
   TilePatience patience;
+  SameDatum datum(drive, *source);
   for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     const Frame& frame = drive.frames[i];
     Result<cv::Mat> gray = frames.gray(i);
@@ -188,6 +210,7 @@ Result<Replay> replay_drive(const Drive& drive, const std::shared_ptr<MapSource>
     for (std::size_t m = 0; m < methods.size(); ++m) {
       Result<FrameFix> fix = run_frame(frame, content, patience, runners[m], replay);
       if (!fix) return fix.error();
+      if (const Status same = datum.check(fix->fix); !same) return same.error();
       replay.fixes[m].push_back(std::move(*fix));
     }
     if (!on_frame(i + 1)) {

@@ -198,6 +198,11 @@ Result<MapDescription> parse_map_document(std::string_view text, const std::stri
   }
   description.feature = feature_parameters_from_json(fields.object(json, "feature"));
   description.bounds = bounds_of(fields, fields.object(json, "bounds"));
+  if (json.contains("datum")) {
+    Result<Datum> datum = Datum::from(fields.text(json, "datum"));
+    if (!datum) fields.fail("\"datum\" " + datum.error().what);
+    if (datum) description.datum = std::move(*datum);
+  }
   if (!fields.ok()) return fields.error();
   return description;
 }

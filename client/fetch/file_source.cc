@@ -44,6 +44,7 @@ MapDescription description_of(const MapReader& reader) {
   }
   description.feature = parameters_from(reader.feature_json(), feature_parameters_from_json);
   description.bounds = reader.bounds();
+  if (Result<Datum> datum = Datum::from(reader.datum())) description.datum = std::move(*datum);
   return description;
 }
 

@@ -17,6 +17,7 @@
 #include "schema/base/result.h"
 #include "schema/document/stored_map.h"
 #include "schema/feature/types.h"
+#include "schema/geo/datum.h"
 #include "schema/geo/geodesy.h"
 #include "schema/store/map_store.h"
 #include "schema/tile/layer_parameters.h"
@@ -41,6 +42,7 @@ struct MapDescription {
   std::map<std::string, Result<LayerParameters>> layers = {};
   Result<FeatureParameters> feature = FeatureParameters();  // Errors: corrupt.
   Bounds bounds = {};                                       // around all segments and cells
+  Datum datum = {};                                         // of all positions
 };
 
 // A segment that passes near a position. No build covers what a server lists here, nor its catalog:

@@ -45,14 +45,19 @@ Status copy_cells(const MapReader& from, const std::string& layer, MapWriter& to
 
 // Copies everything except the walls.
 Status copy_others(const MapReader& from, MapWriter& to) {
-  if (const Status status = to.set_feature_json(from.feature_json()); !status) return status;
+  const Result<std::string> mapping = from.mapping_document();
+  if (!mapping) return mapping.error();
+  Status status = to.set_feature_json(from.feature_json());
+  if (status) status = to.set_datum(from.datum());
+  if (status) status = to.set_mapping_document(*mapping);
+  if (!status) return status;
   for (const auto& [layer, parameters] : from.layers()) {
     if (layer == layers::kWalls) continue;
-    if (const Status status = to.add_layer(layer, parameters); !status) return status;
-    if (const Status status = copy_cells(from, layer, to); !status) return status;
+    if (status = to.add_layer(layer, parameters); !status) return status;
+    if (status = copy_cells(from, layer, to); !status) return status;
   }
   for (const std::string& id : from.segment_ids()) {
-    if (const Status status = copy_segment(from, id, to); !status) return status;
+    if (status = copy_segment(from, id, to); !status) return status;
   }
   return ok_status();
 }

@@ -8,11 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "mapper/cli/build_output.h"
 #include "mapper/cli/commands.h"
 #include "mapper/cli/finding_output.h"
 #include "mapper/codebook/codebook.h"
+#include "mapper/findings/datum_findings.h"
 #include "mapper/findings/drive_findings.h"
-#include "mapper/findings/witness_findings.h"
 #include "mapper/pipeline/build_map.h"
 #include "schema/base/digits.h"
 #include "schema/base/output_file.h"
@@ -41,6 +42,9 @@ struct BuildOptions {
   std::string codebook;
   std::vector<double> border_deg;
   std::string beyond;
+  std::string check_points;
+  std::string check_crs;
+  std::optional<double> max_check_m;
   bool dry_run = false;
   bool json = false;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -55,6 +59,25 @@ const std::map<std::string, PassPolicy> kPassPolicies = {{"fuse", PassPolicy::fu
 std::string wrong_pass_policy(const std::string& word) {
   return kPassPolicies.contains(word) ? ""
                                       : "'" + word + "' is none; choose fuse, keep-best or replace";
+}
+
+void add_check_point_options(CLI::App& app, BuildOptions& options) {
+  CLI::Option* check_points =
+      app.add_option(
+             "--check-points", options.check_points,
+             "Table of surveyed marks and where images show them: columns mark,\n"
+             "latitude_deg, longitude_deg, altitude_m, filename, x_px, y_px and, with several\n"
+             "drives, drive; tells how far off the map has them")
+          ->option_text("FILE");
+  app.add_option("--check-crs", options.check_crs,
+                 "Reference system of the marks, whose columns are then x, y, z")
+      ->needs(check_points)
+      ->option_text("CRS");
+  app.add_option("--max-check-m", options.max_check_m,
+                 "The build fails if marks are farther off in plan (root mean square)")
+      ->needs(check_points)
+      ->check(CLI::Range(0.0, 1000.0))
+      ->option_text("M");
 }
 
 void add_build_options(CLI::App& app, BuildOptions& options) {
@@ -94,6 +117,7 @@ void add_build_options(CLI::App& app, BuildOptions& options) {
   border->needs(beyond);
   beyond->needs(border);
   app.add_flag("--lab", options.settings.lab, "Add the layers of the methods for comparison");
+  add_check_point_options(app, options);
   add_number(app, "--min-fitting-share", options.settings.min_fitting_share, "X",
              "The build fails if of a drive's followed features a smaller share fits its poses", 0,
              1);
@@ -139,35 +163,6 @@ Status check_maps_are_free(const std::vector<Drive>& drives, const BuildOptions&
   return check_outputs(outputs, inputs);
 }
 
-// The share of tracklets that two drives or more saw; nothing in a map of single drives.
-std::string repeated_of(const MapReport& map) {
-  if (map.repeated == 0) return "";
-  const double share = static_cast<double>(map.repeated) / static_cast<double>(map.tracklets);
-  return ", " + fixed(100 * share, 0) + " % seen by two drives or more";
-}
-
-// How well the map's positions are known in the world.
-std::string position_of(const MapReport& map) {
-  const double sigma_m = std::sqrt(map.position_square_m3 / map.length_m);
-  const double assumed = map.assumed_m / map.length_m;
-  std::string text = ", positions to " + fixed(sigma_m, 3) + " m";
-  if (assumed >= 0.995) return text + " (assumed)";
-  if (assumed > 0) text += " (assumed on " + fixed(100 * assumed, 0) + " % of the road)";
-  return text;
-}
-
-std::string summary_line(const MapReport& map, std::size_t frames) {
-  const std::string segments =
-      std::to_string(map.segments) + (map.segments == 1 ? " segment of " : " segments of ");
-  const double tracklets_a_metre = static_cast<double>(map.tracklets) / map.length_m;
-  const double kb_a_metre = static_cast<double>(map.tracklet_bytes) / 1000 / map.length_m;
-  return map.file.string() + ": build " + map.build + ", " + segments + fixed(map.length_m, 1) +
-         " m, " + std::to_string(frames) + " frames, " + std::to_string(map.tracklets) +
-         " tracklets (" + fixed(tracklets_a_metre, 1) + " per metre) in " +
-         std::to_string(map.tiles) + " tiles, " + fixed(kb_a_metre, 2) + " kB/m" +
-         repeated_of(map) + position_of(map);
-}
-
 // The division that the options ask for, if any.
 Result<std::optional<Division>> division_of(const BuildOptions& options) {
   if (options.border_deg.empty()) return std::optional<Division>();
@@ -175,36 +170,6 @@ Result<std::optional<Division>> division_of(const BuildOptions& options) {
   Result<Border> border = Border::through({deg[0], deg[1], 0}, {deg[2], deg[3], 0});
   if (!border) return border.error();
   return std::optional(Division{std::move(*border), options.beyond});
-}
-
-using Json = nlohmann::ordered_json;
-
-// What the images of each drive say of its poses.
-Json json_of(const std::vector<DriveReport>& drives) {
-  Json all = Json::array();
-  for (const DriveReport& drive : drives) {
-    const ImageWitness& witness = drive.witness;
-    all.push_back({{"folder", drive.folder},
-                   {"frames", drive.frames},
-                   {"plan_rms_m", witness.plan_rms_m()},
-                   {"up_rms_m", witness.up_rms_m()},
-                   {"heading_rms_deg", witness.heading_rms_deg()},
-                   {"fitting_share", witness.fitting_share()}});
-  }
-  return all;
-}
-
-Json json_of(const BuildReport& report) {
-  Json all = Json::array();
-  for (const MapReport& map : report.maps) {
-    all.push_back({{"file", map.file.string()},
-                   {"build", map.build},
-                   {"segments", map.segments},
-                   {"length_m", map.length_m},
-                   {"tracklets", map.tracklets},
-                   {"tiles", map.tiles}});
-  }
-  return all;
 }
 
 // An error is one line, which names what was found before it.
@@ -217,15 +182,31 @@ int fail_after(const std::string& program, Error error, const std::vector<Findin
   return fail(program, error);
 }
 
+// Errors: those of common_datum and read_check_points.
+Result<BuildChecks> checks_of(const std::vector<Drive>& drives, const BuildOptions& options,
+                              const std::vector<Finding>& before) {
+  BuildChecks checks{before, {}, options.max_check_m};
+  if (options.check_points.empty()) return checks;
+  const Result<Datum> datum = common_datum(drives);
+  if (!datum) return datum.error();
+  auto points = read_check_points(options.check_points, options.check_crs, *datum, drives);
+  if (!points) return points.error();
+  checks.check_points = std::move(*points);
+  return checks;
+}
+
 // What is wrong with the drives, without mapping them.
 int look(const std::string& program, const std::vector<Drive>& drives,
          const BuildOptions& options) {
+  if (const Result<Datum> datum = common_datum(drives); !datum) return fail(program, datum.error());
   Result<std::vector<Finding>> findings = drive_findings(drives, options.jobs);
   if (!findings) return fail(program, findings.error());
   const Result<std::vector<Finding>> of_lines = line_findings(drives, options.settings);
   if (of_lines) findings->insert(findings->end(), of_lines->begin(), of_lines->end());
   if (options.json) {
-    std::cout << Json{{"findings", json_of(*findings)}, {"maps", Json::array()}}.dump(2) << "\n";
+    BuildReport report;
+    report.findings = *findings;
+    std::cout << json_of(report).dump(2) << "\n";
   } else {
     for (const Finding& finding : *findings) std::cout << error_of(finding).line() << "\n";
   }
@@ -266,39 +247,34 @@ int build(const std::string& program, BuildOptions options) {
   }
   const Result<std::vector<Finding>> before = drive_findings(drives, options.jobs);
   if (!before) return fail(program, before.error());
+  const Result<BuildChecks> checks = checks_of(drives, options, *before);
+  if (!checks) return fail(program, checks.error());
   const bool is_watched = shows_progress();  // otherwise they are told when the map is written
   if (is_watched) warn_of(program, *before);
   cv::setNumThreads(1);  // one frame per thread uses the cores better than many threads per frame
   Result<BuildReport> report = [&] {
     ProgressLine progress;
-    return build_map(drives, options.map, options.settings, options.jobs,
-                     [&](const BuildProgress& at) {
-                       progress.show("frame " + std::to_string(at.frames_done) + " of " +
-                                     std::to_string(at.frames_total));
-                       return !stop_requested();
-                     });
+    return build_map(
+        drives, options.map, options.settings, options.jobs,
+        [&](const BuildProgress& at) {
+          progress.show("frame " + std::to_string(at.frames_done) + " of " +
+                        std::to_string(at.frames_total));
+          return !stop_requested();
+        },
+        *checks);
   }();
   if (!report) return fail_after(program, report.error(), *before);
   if (!is_watched) warn_of(program, *before);
-  for (const DriveReport& drive : report->drives) {
-    const std::vector<Finding> witnessed = witness_findings(drive.folder, drive.witness);
-    report->findings.insert(report->findings.end(), witnessed.begin(), witnessed.end());
-  }
   warn_of(program, report->findings);
   for (const DriveReport& drive : report->drives) {
     if (drive.frames > 0 && drive.tracklets == 0) warn(program, nothing_found(drive));
   }
   if (options.json) {
-    std::vector<Finding> findings = *before;
-    findings.insert(findings.end(), report->findings.begin(), report->findings.end());
-    std::cout << Json{{"findings", json_of(findings)},
-                      {"drives", json_of(report->drives)},
-                      {"maps", json_of(*report)}}
-                     .dump(2)
-              << "\n";
-    return kExitDone;
+    report->findings.insert(report->findings.begin(), before->begin(), before->end());
+    std::cout << json_of(*report).dump(2) << "\n";
+  } else {
+    std::cout << text_of(*report);
   }
-  for (const MapReport& map : report->maps) std::cout << summary_line(map, report->frames) << "\n";
   return kExitDone;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <tuple>
 
 #include "mapper/cli/commands.h"
 #include "mapper/cli/finding_output.h"
@@ -25,8 +26,10 @@ after. Images are referred to, not copied. Layouts:
   nmea, gpx       a receiver's positions; headings are told by the motion
   kitti-odometry  a sequence of that benchmark     kitti-raw  a drive of that data
   tum             camera poses as that benchmark writes them
+  colmap          a model, text or binary, aligned to the Earth
+  exif            images that tell their times and places themselves
 
-Times of images (--times): a table with filename,timestamp_s; lines of time and name; or a time a
+--images is a folder, or a video with the layouts of a trajectory. Times of images (--times): a table with filename,timestamp_s; lines of time and name; or a time a
 line in the order of the names, in seconds or as 2011-09-30T12:40:59.123. Without it names that are
 numbers are times.
 Example: milepost-mapper import sbet --trajectory sbet.out --images cam --times cam.csv \
@@ -38,6 +41,8 @@ struct ImportCommand {
   DriveSettings settings;
   std::string camera;
   std::vector<double> origin_deg;
+  std::string datum;
+  std::string to_datum;
   std::vector<double> mounting;
 };
 
@@ -52,11 +57,12 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
       ->required()
       ->option_text("DIR");
   ImportOptions& options = command.options;
-  app.add_option("--folder", options.folder, "Folder of a KITTI sequence or drive")
+  app.add_option("--folder", options.folder, "Folder of a KITTI sequence or drive, or of a model")
       ->option_text("DIR");
   app.add_option("--trajectory", options.trajectory, "File of the poses or positions")
       ->option_text("FILE");
-  app.add_option("--images", options.images, "Folder of the images")->option_text("DIR");
+  app.add_option("--images", options.images, "Folder of the images, or a video")
+      ->option_text("DIR");
   app.add_option("--times", options.times, "File of the images' times")->option_text("FILE");
   app.add_option("--calibration", options.calibration,
                  "Folder of KITTI's calibration files (default: above --folder)")
@@ -74,20 +80,37 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
                  "csv: names of the columns, WHAT=NAME; WHAT is time, latitude, longitude, height, "
                  "x, y, z, heading, pitch, roll or image (default: so named)")
       ->option_text("WHAT=NAME...");
-  app.add_option("--crs", options.crs,
-                 "csv: reference system of x, y, z, for example EPSG:25832 or EPSG:4978")
+  app.add_option(
+         "--crs", options.crs,
+         "Reference system of csv's x, y, z, or of a model: EPSG:25832, EPSG:4978 (geocentric)")
       ->option_text("CRS");
   app.add_option("--origin", command.origin_deg,
                  "Latitude, longitude and altitude of the origin of a local frame")
       ->expected(3)
       ->delimiter(',')
       ->option_text("LAT,LON,ALT");
+  app.add_option("--datum", command.datum,
+                 "Datum of the positions, with its epoch if it has one: ETRF2000, ITRF2014@2020.5\n"
+                 "(default: that of --crs; without it none is stated)")
+      ->option_text("NAME[@YEAR]");
+  app.add_option("--to-datum", command.to_datum, "Transform the positions to this datum")
+      ->option_text("NAME[@YEAR]");
   add_number(app, "--origin-heading-deg", options.origin_heading_deg, "DEG",
              "Heading of the local frame: of KITTI's first camera, of TUM's y axis", -360, 360);
   add_number(app, "--day-s", command.settings.day_s, "S",
              "Added to the trajectory's times: the begin of its day or week", -1e10, 1e10);
   add_number(app, "--time-offset-s", command.settings.time_offset_s, "S",
              "Added to the images' times", -1e10, 1e10);
+  app.add_option("--estimate-offset-s", command.settings.estimate_offset_s,
+                 "Find the rest of the images' offset by their motion, up to so many seconds")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->option_text("S");
+  add_number(app, "--rate-hz", options.rate_hz, "HZ",
+             "Images a second: of images without times, in the order of their names; at most, of a "
+             "video; 0: all",
+             0, 1000);
+  app.add_option("--camera-number", options.camera_number, "colmap: the camera, of several")
+      ->option_text("N");
   add_number(app, "--max-gap-s", command.settings.max_gap_s, "S",
              "Images between poses that are farther apart are left out", 0.001, 3600);
   app.add_flag("--spread-seconds", command.settings.spread_seconds,
@@ -138,6 +161,17 @@ int import(const std::string& program, ImportCommand command) {
     const Result<Camera> camera = read_camera(command.camera);
     if (!camera) return fail(program, camera.error());
     settings.camera = *camera;
+  }
+  for (const auto& [text, option, datum] :
+       {std::tuple{&command.datum, "--datum", &settings.datum},
+        {&command.to_datum, "--to-datum", &settings.to_datum}}) {
+    if (text->empty()) continue;
+    const Result<Datum> read = Datum::from(*text);
+    if (!read) {
+      fail(program, {read.error().code, option, read.error().what, read.error().hint});
+      return kExitWrongCall;
+    }
+    *datum = *read;
   }
   if (settings.name.empty())
     settings.name = std::filesystem::absolute(settings.folder / ".").parent_path().filename();

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <thread>
 
+#include "mapper/findings/datum_findings.h"
 #include "mapper/findings/heading_findings.h"
 #include "mapper/findings/image_findings.h"
 #include "mapper/findings/position_findings.h"
@@ -38,6 +39,8 @@ Result<std::vector<Finding>> drive_findings(const std::vector<Drive>& drives, in
     if (!of_drive) return of_drive.error();
     findings.insert(findings.end(), of_drive->begin(), of_drive->end());
   }
+  const std::vector<Finding> of_datum = datum_findings(drives);
+  findings.insert(findings.end(), of_datum.begin(), of_datum.end());
   return findings;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "mapper/findings/trajectory_place.h"
 #include "schema/base/digits.h"
@@ -191,10 +192,26 @@ class HeadingCheck {
   std::vector<Chord> chords_;
 };
 
+// A vehicle on a road is level from side to side.
+std::optional<Finding> tilted(const Drive& drive) {
+  constexpr double kLargestDeg = 5;
+  std::vector<double> rolls_deg;
+  rolls_deg.reserve(drive.frames.size());
+  for (const Frame& frame : drive.frames) rolls_deg.push_back(recorded_pose(drive, frame).roll_deg);
+  const double roll_deg = median_of(rolls_deg);
+  if (std::abs(roll_deg) <= kLargestDeg) return std::nullopt;
+  return on_trajectory(drive, "tilted", drive.frames.front(), drive.frames.size(),
+                       "everything is rolled by " + fixed(roll_deg, 1) + " degrees in the median",
+                       "give the camera's roll as mounting.roll_deg; a model that was aligned by "
+                       "positions on a straight line is rolled by chance: align it otherwise");
+}
+
 }  // namespace
 
 std::vector<Finding> heading_findings(const Drive& drive, const std::vector<Step>& steps) {
-  return HeadingCheck(drive, steps).run();
+  std::vector<Finding> findings = HeadingCheck(drive, steps).run();
+  if (auto found = tilted(drive)) findings.push_back(std::move(*found));
+  return findings;
 }
 
 }  // namespace milepost

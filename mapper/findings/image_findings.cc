@@ -7,8 +7,7 @@
 #include <optional>
 #include <system_error>
 
-#include <opencv2/imgproc.hpp>
-
+#include "mapper/findings/image_motion.h"
 #include "mapper/findings/trajectory_place.h"
 #include "schema/base/digits.h"
 #include "schema/base/file.h"
@@ -60,65 +59,31 @@ std::size_t liveliest_part(const std::vector<double>& turns_deg, std::size_t len
   return begin;
 }
 
-// How far frames turn to the right from one to the next, by the shift of what is about the horizon.
-class ImageTurns {
- public:
-  explicit ImageTurns(const Drive& drive)
-      : reader_(drive), scale_(kWidthPx / drive.camera.width_px), camera_(drive.camera) {}
-
-  Result<std::vector<double>> turns_deg(std::size_t begin, std::size_t steps) const {
-    std::vector<double> turns;
-    cv::Mat before;
-    cv::Mat window;
-    for (std::size_t i = begin; i <= begin + steps; ++i) {
-      const Result<cv::Mat> gray = reader_.gray(i);
-      if (!gray) return gray.error();
-      const cv::Mat now = horizon_of(*gray);
-      if (window.empty()) cv::createHanningWindow(window, now.size(), CV_32F);
-      if (!before.empty()) {
-        const cv::Point2d shift_px = cv::phaseCorrelate(before, now, window);
-        const double focal_px = camera_.pinhole.focal_x_px * scale_;
-        turns.push_back(-std::atan(shift_px.x / focal_px) * kDegPerRad);
-      }
-      before = now;
-    }
-    return turns;
+// How far the frames of a part of a drive turn to the right from one to the next.
+Result<std::vector<double>> seen_turns_deg(const Drive& drive, std::size_t begin,
+                                           std::size_t steps) {
+  const FrameReader reader(drive);
+  ImageMotion motion(drive.camera);
+  std::vector<double> turns;
+  for (std::size_t i = begin; i <= begin + steps; ++i) {
+    const Result<cv::Mat> gray = reader.gray(i);
+    if (!gray) return gray.error();
+    if (const auto moved = motion.to(*gray)) turns.push_back(moved->turn_deg);
   }
+  return turns;
+}
 
- private:
-  static constexpr double kWidthPx = 320;
-
-  cv::Mat horizon_of(const cv::Mat& gray) const {
-    cv::Mat small;
-    cv::resize(gray, small, {}, scale_, scale_, cv::INTER_AREA);
-    const int middle = static_cast<int>(camera_.pinhole.principal_y_px * scale_);
-    const int half = std::max(8, small.rows / 4);
-    const int top = std::clamp(middle - half, 0, std::max(0, small.rows - 2 * half));
-    cv::Mat band;
-    small(cv::Rect(0, top, small.cols, std::min(2 * half, small.rows - top)))
-        .convertTo(band, CV_32F);
-    return band;
-  }
-
-  FrameReader reader_;
-  double scale_;
-  const Camera& camera_;
-};
-
-double correlation(const std::vector<double>& a, const std::vector<double>& b, long lag) {
-  double ab = 0;
-  double aa = 0;
-  double bb = 0;
-  for (long i = 0; i < static_cast<long>(a.size()); ++i) {
+double correlation_at(const std::vector<double>& seen, const std::vector<double>& recorded,
+                      long lag) {
+  std::vector<double> a;
+  std::vector<double> b;
+  for (long i = 0; i < static_cast<long>(seen.size()); ++i) {
     const long j = i + lag;
-    if (j < 0 || j >= static_cast<long>(b.size())) continue;
-    const double x = a[static_cast<std::size_t>(i)];
-    const double y = b[static_cast<std::size_t>(j)];
-    ab += x * y;
-    aa += x * x;
-    bb += y * y;
+    if (j < 0 || j >= static_cast<long>(recorded.size())) continue;
+    a.push_back(seen[static_cast<std::size_t>(i)]);
+    b.push_back(recorded[static_cast<std::size_t>(j)]);
   }
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
+  return correlation(a, b);
 }
 
 // Headings that turn before or after the images do.
@@ -140,15 +105,15 @@ Result<std::optional<Finding>> clock_offset(const Drive& drive, const std::vecto
   const double turned_deg = std::accumulate(recorded.begin(), recorded.end(), 0.0,
                                             [](double sum, double t) { return sum + std::abs(t); });
   if (turned_deg < kLeastTurnDeg) return std::optional<Finding>();
-  const Result<std::vector<double>> seen = ImageTurns(drive).turns_deg(begin, length);
+  const Result<std::vector<double>> seen = seen_turns_deg(drive, begin, length);
   if (!seen) return seen.error();
   long best = 0;
   for (long lag = -kMaxLag; lag <= kMaxLag; ++lag)
-    if (correlation(*seen, recorded, lag) > correlation(*seen, recorded, best)) best = lag;
-  const double at_best = correlation(*seen, recorded, best);
+    if (correlation_at(*seen, recorded, lag) > correlation_at(*seen, recorded, best)) best = lag;
+  const double at_best = correlation_at(*seen, recorded, best);
   const auto unexplained = [](double r) { return 1 - r * r; };
   if (best == 0 || at_best < kAgrees ||
-      unexplained(at_best) > kBetter * unexplained(correlation(*seen, recorded, 0)))
+      unexplained(at_best) > kBetter * unexplained(correlation_at(*seen, recorded, 0)))
     return std::optional<Finding>();
   std::vector<double> elapsed_s;
   elapsed_s.reserve(steps.size());

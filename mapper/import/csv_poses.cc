@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <map>
 
-#include "mapper/import/coordinates.h"
+#include "mapper/geodata/coordinate_transform.h"
 #include "mapper/import/image_times.h"
 #include "mapper/import/layouts.h"
 #include "schema/base/csv.h"
@@ -101,6 +101,7 @@ Result<Recording> read_csv(const ImportOptions& options) {
     transform = std::move(*made);
   }
   Recording recording;
+  if (transform) recording.datum.name = transform->datum();
   recording.has_headings = table->has("heading");
   recording.has_tilts = table->has("pitch") || table->has("roll");
   for (std::size_t row = 0; row < table->row_count(); ++row) {
@@ -116,7 +117,7 @@ Result<Recording> read_csv(const ImportOptions& options) {
     }
     pose.attitude.position = {xyz[1], xyz[0], xyz[2]};
     if (transform) {
-      Result<GeoPoint> position = transform->wgs84_of(xyz[0], xyz[1], xyz[2]);
+      Result<GeoPoint> position = transform->geographic_of(xyz[0], xyz[1], xyz[2]);
       if (!position) {
         Error error = position.error();
         error.where = table->place(row);
@@ -137,9 +138,7 @@ Result<Recording> read_csv(const ImportOptions& options) {
     recording.poses.push_back(pose);
   }
   if (table->has("image")) return recording;
-  auto images = timed_images(options.images, options.times);
-  if (!images) return images.error();
-  recording.images = std::move(*images);
+  if (const Status added = add_images(options, recording); !added) return added.error();
   return recording;
 }
 

@@ -64,9 +64,7 @@ Result<Recording> read_gpx(const ImportOptions& options) {
     return Error{ErrorCode::invalid_input, options.trajectory.string(),
                  "holds no track point with a time", "name a file with a recorded track"};
   }
-  auto images = timed_images(options.images, options.times);
-  if (!images) return images.error();
-  recording.images = std::move(*images);
+  if (const Status added = add_images(options, recording); !added) return added.error();
   return recording;
 }
 

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "mapper/import/video.h"
 #include "schema/base/csv.h"
 #include "schema/base/file.h"
 #include "schema/base/median.h"
@@ -168,9 +169,36 @@ Result<std::vector<fs::path>> images_in(const fs::path& folder) {
   return files;
 }
 
-Result<std::vector<RecordedImage>> timed_images(const fs::path& folder, const fs::path& times) {
+Status add_images(const ImportOptions& options, Recording& recording) {
+  std::error_code error;
+  if (!fs::is_regular_file(options.images, error)) {
+    auto images = timed_images(options.images, options.times, options.rate_hz);
+    if (!images) return images.error();
+    recording.images = std::move(*images);
+    return ok_status();
+  }
+  if (!options.times.empty()) {
+    return wrong(options.images, 0, "is a video, which has times of its own",
+                 "leave out --times, and correct its clock with --time-offset-s");
+  }
+  auto video = open_video(options.images, options.rate_hz);
+  if (!video) return video.error();
+  recording.images = std::move(video->images);
+  recording.container = std::move(video->frames);
+  return ok_status();
+}
+
+Result<std::vector<RecordedImage>> timed_images(const fs::path& folder, const fs::path& times,
+                                                double rate_hz) {
   const auto files = images_in(folder);
   if (!files) return files.error();
+  if (times.empty() && rate_hz > 0) {
+    std::vector<RecordedImage> images;
+    images.reserve(files->size());
+    for (const fs::path& file : *files)
+      images.push_back({file, static_cast<double>(images.size()) / rate_hz});
+    return images;
+  }
   if (times.empty()) return from_names(*files);
   if (begins_with_columns(times)) return from_table(folder, times);
   const auto lines = time_lines(times);

@@ -1,11 +1,13 @@
 #include "mapper/import/import_drive.h"
 
 #include <algorithm>
-#include <set>
 #include <system_error>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "mapper/geodata/datum_transform.h"
+#include "mapper/import/clock_offset.h"
+#include "mapper/import/drive_images.h"
 #include "mapper/import/image_times.h"
 #include "mapper/import/trajectory.h"
 #include "schema/base/digits.h"
@@ -18,44 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kImages = "frames";
+constexpr const char* kExtracted =
+    "frames.partial";  // of a container, while its clock is estimated
 
 Status check_new(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return ok_status();
   return Error{ErrorCode::invalid_input, folder.string(), "is not empty",
                "name a new folder for the drive"};
-}
-
-// Names that a drive's table can hold; of images in several folders, numbers.
-std::vector<std::string> frame_names(const std::vector<RecordedImage>& images) {
-  std::vector<std::string> names;
-  std::set<std::string> known;
-  bool are_plain = true;
-  for (const RecordedImage& image : images) {
-    names.push_back(image.file.filename().string());
-    are_plain = are_plain && known.insert(names.back()).second &&
-                names.back().find_first_of(",;\t\"") == std::string::npos;
-  }
-  if (are_plain) return names;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    std::string number = std::to_string(i);
-    number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
-    names[i] = number + images[i].file.extension().string();
-  }
-  return names;
-}
-
-Status place_image(const fs::path& from, const fs::path& to, bool copy) {
-  std::error_code error;
-  if (copy) {
-    fs::copy_file(from, to, error);
-  } else {
-    const fs::path absolute = fs::canonical(from, error);
-    if (!error) fs::create_symlink(absolute, to, error);
-  }
-  if (!error) return ok_status();
-  return Error{ErrorCode::io, from.string(), "cannot be taken over (" + error.message() + ")",
-               "check the image and the drive's folder"};
 }
 
 // The recording's camera, of the images' size.
@@ -95,96 +67,167 @@ std::vector<GpsFix> receiver_of(const Trajectory& trajectory, double sigma_m) {
   return fixes;
 }
 
+// Moves the poses to the datum that is asked for, and returns theirs. Errors: invalid_input.
+Result<Datum> to_asked_datum(Recording& recording, const DriveSettings& settings) {
+  const Datum& datum = settings.datum.is_stated() ? settings.datum : recording.datum;
+  const Datum& asked = settings.to_datum;
+  if (!asked.is_stated() || (datum.name == asked.name && agree(datum, asked)))
+    return asked.is_stated() ? asked : datum;
+  if (!datum.is_stated()) {
+    return Error{ErrorCode::invalid_input, "--to-datum",
+                 "needs the datum of the recording, which this layout does not tell",
+                 "name it with --datum"};
+  }
+  const auto transform = DatumTransform::between(datum, asked);
+  if (!transform) return transform.error();
+  for (RecordedPose& pose : recording.poses) {
+    const auto moved = transform->transformed(pose.attitude.position);
+    if (!moved) return moved.error();
+    pose.attitude.position = *moved;
+  }
+  return asked;
+}
+
+Status check_not_empty(const Recording& recording) {
+  if (recording.images.empty()) {
+    return Error{ErrorCode::invalid_input, "the recording", "has no images", "name their folder"};
+  }
+  return ok_status();
+}
+
+Result<Trajectory> trajectory_of(Recording& recording, const DriveSettings& settings) {
+  for (RecordedPose& pose : recording.poses) pose.timestamp_s += settings.day_s;
+  const std::size_t recorded = recording.poses.size();
+  if (recorded > 0) {
+    Trajectory trajectory(std::move(recording.poses), settings.max_gap_s);
+    if (!recording.has_headings) trajectory.set_headings_by_motion();
+    if (trajectory.poses().size() > 1) return trajectory;
+  }
+  return Error{
+      ErrorCode::invalid_input, "the trajectory",
+      "has " + std::to_string(std::min<std::size_t>(recorded, 1)) + " poses, not two or more",
+      "name another file"};
+}
+
+// Moves the images' times to the trajectory's clock. Errors: those of estimate_clock_offset and
+// extract_images.
+Status correct_clock(Recording& recording, const Trajectory& trajectory, const Camera& camera,
+                     const DriveSettings& settings, std::vector<std::string>& notes) {
+  if (settings.spread_seconds) spread_whole_seconds(recording.images);
+  const auto move_by = [&](double offset_s) {
+    for (RecordedImage& image : recording.images) image.timestamp_s += offset_s;
+  };
+  move_by(settings.time_offset_s);
+  std::ranges::stable_sort(recording.images, {}, &RecordedImage::timestamp_s);
+  if (!settings.estimate_offset_s) return ok_status();
+  if (recording.container != nullptr) {
+    const Status extracted = extract_images(recording, settings.folder / kExtracted);
+    if (!extracted) return extracted;
+  }
+  const auto found =
+      estimate_clock_offset(recording.images, trajectory, camera, *settings.estimate_offset_s);
+  if (!found) return found.error();
+  move_by(found->offset_s);
+  notes.push_back("the images' times are moved by " + fixed(found->offset_s, 2) +
+                  " s more, by which they go with the " +
+                  (found->by_turns ? "turns" : "stops and starts") + " of the trajectory (to " +
+                  fixed(found->correlation, 2) + ")");
+  return ok_status();
+}
+
+// The images that have a pose, and the drive of their frames. Errors: invalid_input: none has.
+struct PosedImages {
+  Drive drive;
+  std::vector<RecordedImage> images;
+};
+Result<PosedImages> posed_images(const Recording& recording, const Trajectory& trajectory,
+                                 const Camera& camera) {
+  PosedImages posed;
+  posed.drive.camera = camera;
+  for (const RecordedImage& image : recording.images) {
+    const auto there = trajectory.at(image.timestamp_s);
+    if (!there) continue;
+    const GeoAttitude at =
+        recording.are_cameras ? *there : camera_of_vehicle(*there, camera.mounting);
+    posed.drive.frames.push_back(
+        {"", image.timestamp_s, at.position, at.heading_deg, at.pitch_deg, at.roll_deg});
+    posed.images.push_back(image);
+  }
+  if (!posed.images.empty()) return posed;
+  return Error{ErrorCode::invalid_input, "the trajectory",
+               "lasts from " + fixed(trajectory.begin_s(), 3) + " to " +
+                   fixed(trajectory.end_s(), 3) + " s, the images from " +
+                   fixed(recording.images.front().timestamp_s, 3) + " to " +
+                   fixed(recording.images.back().timestamp_s, 3) + " s: no image has a pose",
+               "give the offset of their clocks with --time-offset-s"};
+}
+
 // Writes the drive with its images, and reads it back.
-Result<Drive> write_with_images(const Drive& drive, const std::vector<RecordedImage>& images,
-                                ImageContainer* container, const DriveSettings& settings) {
-  std::error_code error;
-  fs::create_directories(settings.folder / kImages, error);
-  if (error) {
-    return Error{ErrorCode::io, settings.folder.string(),
-                 "cannot be created (" + error.message() + ")",
-                 "check the path and the permissions"};
-  }
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const fs::path frame = settings.folder / kImages / drive.frames[i].filename;
-    const Status placed = container == nullptr
-                              ? place_image(images[i].file, frame, settings.copy_images)
-                              : container->write(images[i], frame);
-    if (!placed) return placed.error();
-  }
-  if (const Status written = write_drive(drive, settings.folder); !written) return written.error();
+Result<Drive> write_with_images(const PosedImages& posed, const Recording& recording,
+                                const DriveSettings& settings) {
+  std::vector<std::string> names;
+  names.reserve(posed.images.size());
+  for (const Frame& frame : posed.drive.frames) names.push_back(frame.filename);
+  const bool are_extracted = fs::exists(settings.folder / kExtracted);
+  const PlaceImages how = are_extracted          ? PlaceImages::move
+                          : settings.copy_images ? PlaceImages::copy
+                                                 : PlaceImages::refer;
+  const Status placed =
+      place_images(posed.images, names, recording.container.get(), how, settings.folder / kImages);
+  if (!placed) return placed.error();
+  const Status written = write_drive(posed.drive, settings.folder);
+  if (!written) return written.error();
   return read_drive(settings.folder);
+}
+
+Result<ImportReport> import_into(Recording& recording, const DriveSettings& settings) {
+  const Result<Datum> datum = to_asked_datum(recording, settings);
+  if (!datum) return datum.error();
+  auto trajectory = trajectory_of(recording, settings);
+  if (!trajectory) return trajectory.error();
+  if (const Status there = check_not_empty(recording); !there) return there.error();
+  const auto camera = camera_of(recording, settings);
+  if (!camera) return camera.error();
+  ImportReport report;
+  const Status corrected = correct_clock(recording, *trajectory, *camera, settings, report.notes);
+  if (!corrected) return corrected.error();
+  auto posed = posed_images(recording, *trajectory, *camera);
+  if (!posed) return posed.error();
+  const std::vector<std::string> names = frame_names(posed->images);
+  for (std::size_t i = 0; i < names.size(); ++i) posed->drive.frames[i].filename = names[i];
+  if (names.size() < recording.images.size()) {
+    report.notes.push_back(std::to_string(recording.images.size() - names.size()) + " of " +
+                           std::to_string(recording.images.size()) +
+                           " images have no pose and are left out");
+  }
+  for (const TrajectoryGap& gap : trajectory->gaps()) report.notes.push_back(note_of(gap));
+
+  Drive& drive = posed->drive;
+  drive.name = settings.name;
+  drive.position_frame = PositionFrame::geographic;
+  drive.datum = *datum;
+  drive.images = kImages;
+  drive.source = settings.source;
+  drive.has_tilts = recording.has_tilts;
+  std::optional<double> sigma_m = settings.receiver_sigma_m;
+  if (!sigma_m && recording.is_receivers) sigma_m = 5;
+  if (sigma_m) drive.gps = receiver_of(*trajectory, *sigma_m);
+  Result<Drive> written = write_with_images(*posed, recording, settings);
+  if (!written) return written.error();
+  report.drive = std::move(*written);
+  return report;
 }
 
 }  // namespace
 
 Result<ImportReport> import_drive(Recording recording, const DriveSettings& settings) {
   if (const Status is_new = check_new(settings.folder); !is_new) return is_new.error();
-  const auto no_poses = [](std::size_t count) {
-    return Error{ErrorCode::invalid_input, "the trajectory",
-                 "has " + std::to_string(count) + " poses, not two or more", "name another file"};
-  };
-  for (RecordedPose& pose : recording.poses) pose.timestamp_s += settings.day_s;
-  if (recording.poses.size() < 2) return no_poses(recording.poses.size());
-  Trajectory trajectory(std::move(recording.poses), settings.max_gap_s);
-  if (trajectory.poses().size() < 2) return no_poses(trajectory.poses().size());
-  if (!recording.has_headings) trajectory.set_headings_by_motion();
-  if (settings.spread_seconds) spread_whole_seconds(recording.images);
-  for (RecordedImage& image : recording.images) image.timestamp_s += settings.time_offset_s;
-  std::ranges::stable_sort(recording.images, {}, &RecordedImage::timestamp_s);
-
-  ImportReport report;
-  std::vector<RecordedImage> kept;
-  Drive drive;
-  if (recording.images.empty()) {
-    return Error{ErrorCode::invalid_input, "the recording", "has no images", "name their folder"};
-  }
-  const auto camera = camera_of(recording, settings);
-  if (!camera) return camera.error();
-  drive.camera = *camera;
-  for (const RecordedImage& image : recording.images) {
-    const auto vehicle = trajectory.at(image.timestamp_s);
-    if (!vehicle) continue;
-    const GeoAttitude at = camera_of_vehicle(*vehicle, drive.camera.mounting);
-    drive.frames.push_back(
-        {"", image.timestamp_s, at.position, at.heading_deg, at.pitch_deg, at.roll_deg});
-    kept.push_back(image);
-  }
-  if (kept.empty()) {
-    return Error{ErrorCode::invalid_input, "the trajectory",
-                 "lasts from " + fixed(trajectory.begin_s(), 3) + " to " +
-                     fixed(trajectory.end_s(), 3) + " s, the images from " +
-                     fixed(recording.images.front().timestamp_s, 3) + " to " +
-                     fixed(recording.images.back().timestamp_s, 3) + " s: no image has a pose",
-                 "give the offset of their clocks with --time-offset-s"};
-  }
-  const std::vector<std::string> names = frame_names(kept);
-  for (std::size_t i = 0; i < kept.size(); ++i) drive.frames[i].filename = names[i];
-  if (kept.size() < recording.images.size()) {
-    report.notes.push_back(std::to_string(recording.images.size() - kept.size()) + " of " +
-                           std::to_string(recording.images.size()) +
-                           " images have no pose and are left out");
-  }
-  for (const TrajectoryGap& gap : trajectory.gaps()) report.notes.push_back(note_of(gap));
-
-  drive.name = settings.name;
-  drive.position_frame = PositionFrame::geographic;
-  drive.images = kImages;
-  drive.source = settings.source;
-  drive.has_tilts = recording.has_tilts;
-  std::optional<double> sigma_m = settings.receiver_sigma_m;
-  if (!sigma_m && recording.is_receivers) sigma_m = 5;
-  if (sigma_m) drive.gps = receiver_of(trajectory, *sigma_m);
-
-  Result<Drive> written = write_with_images(drive, kept, recording.container.get(), settings);
-  if (!written) {
-    std::error_code ignored;  // nothing half done is left
-    for (const fs::path& entry : {fs::path(kImages), fs::path("drive.json"),
-                                  fs::path("trajectory.csv"), fs::path("gps.csv")})
-      fs::remove_all(settings.folder / entry, ignored);
-    return written.error();
-  }
-  report.drive = std::move(*written);
+  Result<ImportReport> report = import_into(recording, settings);
+  std::error_code ignored;
+  fs::remove_all(settings.folder / kExtracted, ignored);
+  if (report) return report;
+  for (const char* entry : {kImages, "drive.json", "trajectory.csv", "gps.csv"})
+    fs::remove_all(settings.folder / entry, ignored);  // nothing half done is left
   return report;
 }
 

@@ -13,16 +13,19 @@
 namespace milepost {
 
 struct DriveSettings {
-  std::filesystem::path folder;  // of the drive; new, or empty
-  std::string name;              // empty: the folder's
-  std::string source;            // one line
-  bool copy_images = false;      // otherwise they are referred to by symbolic links
-  double day_s = 0;              // added to the poses' times
-  double time_offset_s = 0;      // added to the images'
-  double max_gap_s = 1;          // between poses; images in longer gaps are left out
-  bool spread_seconds = false;   // images stamped with whole seconds
-  std::optional<Camera> camera;  // in the place of the recording's
+  std::filesystem::path folder;             // of the drive; new, or empty
+  std::string name;                         // empty: the folder's
+  std::string source;                       // one line
+  bool copy_images = false;                 // otherwise they are referred to by symbolic links
+  double day_s = 0;                         // added to the poses' times
+  double time_offset_s = 0;                 // added to the images'
+  std::optional<double> estimate_offset_s;  // find out more of it by the motion, up to so much
+  double max_gap_s = 1;                     // between poses; images in longer gaps are left out
+  bool spread_seconds = false;              // images stamped with whole seconds
+  std::optional<Camera> camera;             // in the place of the recording's
   std::optional<Mounting> mounting;
+  Datum datum;     // of the recorded positions, in the place of the recording's
+  Datum to_datum;  // transforms them
   std::optional<double> receiver_sigma_m;  // also writes gps.csv, one position a second
 };
 

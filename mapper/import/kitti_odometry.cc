@@ -26,6 +26,7 @@ Result<Recording> read_kitti_odometry(const ImportOptions& options) {
   const CameraPose first = {Eigen::Vector3d::Zero(), options.origin_heading_deg * kRadPerDeg, 0, 0};
   Recording recording;
   recording.has_tilts = true;
+  recording.are_cameras = true;
   for (std::size_t i = 0; i < lines->size(); ++i) {
     using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
     Eigen::Isometry3d first_from_camera = Eigen::Isometry3d::Identity();

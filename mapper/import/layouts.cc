@@ -11,8 +11,10 @@ const std::vector<ImportLayout>& import_layouts() {
       {"csv", {kTrajectory, kImages}, read_csv},
       {"nmea", {kTrajectory, kImages}, read_nmea},
       {"gpx", {kTrajectory, kImages}, read_gpx},
+      {"exif", {kImages}, read_exif_images},
       {"kitti-odometry", {kFolder, kTrajectory}, read_kitti_odometry},
       {"kitti-raw", {kFolder}, read_kitti_raw},
+      {"colmap", {kFolder, kImages}, read_colmap},
       {"tum", {kTrajectory, kImages}, read_tum}};
   return kLayouts;
 }

@@ -25,10 +25,14 @@ Result<Recording> read_csv(const ImportOptions& options);
 Result<Recording> read_nmea(const ImportOptions& options);
 // Track points of a receiver.
 Result<Recording> read_gpx(const ImportOptions& options);
+// Images that hold times and positions in their EXIF data.
+Result<Recording> read_exif_images(const ImportOptions& options);
 // A sequence of KITTI's odometry benchmark: camera poses relative to the first.
 Result<Recording> read_kitti_odometry(const ImportOptions& options);
 // A drive of KITTI's raw data: a navigation system's packets, images, calibration.
 Result<Recording> read_kitti_raw(const ImportOptions& options);
+// A model of COLMAP, text or binary, aligned to the Earth.
+Result<Recording> read_colmap(const ImportOptions& options);
 // Camera poses as TUM's RGB-D benchmark writes them.
 Result<Recording> read_tum(const ImportOptions& options);
 

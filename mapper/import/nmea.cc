@@ -113,9 +113,7 @@ Result<Recording> read_nmea(const ImportOptions& options) {
     return Error{ErrorCode::invalid_input, options.trajectory.string(),
                  "holds no GGA sentence with a position", "record GGA sentences"};
   }
-  auto images = timed_images(options.images, options.times);
-  if (!images) return images.error();
-  recording.images = std::move(*images);
+  if (const Status added = add_images(options, recording); !added) return added.error();
   return recording;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "schema/base/result.h"
 #include "schema/geo/camera.h"
+#include "schema/geo/datum.h"
 #include "schema/geo/mounting.h"
 
 namespace milepost {
@@ -43,19 +45,23 @@ struct Recording {
   std::vector<RecordedPose> poses;  // in any order, at their own rate
   bool has_headings = true;         // false: to be told by the motion
   bool has_tilts = false;           // pitch and roll are recorded
+  bool are_cameras = false;         // the poses are the camera's, whatever its mounting
   std::vector<RecordedImage> images;
   std::shared_ptr<ImageContainer> container;  // null: each image is a file
   // With the mounting, if the layout tells them; without a size: that of the images' files.
   std::optional<Camera> camera;
-  bool is_receivers = false;     // the poses are a navigation receiver's
+  bool is_receivers = false;  // the poses are a navigation receiver's
+  Datum datum;                // if the layout tells it
 };
 
 // What the user tells of a recording; each layout reads a part of it.
 struct ImportOptions {
-  std::filesystem::path folder;       // of a layout that has one
-  std::filesystem::path images;       // folder
-  std::filesystem::path times;        // of the images
-  std::filesystem::path trajectory;   // file
+  std::filesystem::path folder;                // of a layout that has one
+  std::optional<std::uint32_t> camera_number;  // of several
+  std::filesystem::path images;                // folder, or a video
+  std::filesystem::path times;                 // of the images
+  double rate_hz = 0;                // of images without times, or at most of a video; 0: not given
+  std::filesystem::path trajectory;  // file
   std::filesystem::path calibration;  // file
   std::string crs;                    // of coordinates that are not WGS84 degrees
   std::vector<std::string> columns;   // csv: what=NAME

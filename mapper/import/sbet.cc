@@ -42,9 +42,7 @@ Result<Recording> read_sbet(const ImportOptions& options) {
     recording.poses.push_back(
         {record[0], {position, wrapped_360(degrees(9) - degrees(10)), degrees(8), degrees(7)}});
   }
-  auto images = timed_images(options.images, options.times);
-  if (!images) return images.error();
-  recording.images = std::move(*images);
+  if (const Status added = add_images(options, recording); !added) return added.error();
   return recording;
 }
 

@@ -1,6 +1,7 @@
 #include "mapper/import/trajectory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mapper/geodata/between.h"
@@ -23,9 +24,15 @@ Trajectory::Trajectory(std::vector<RecordedPose> poses, double max_gap_s)
 
 std::optional<GeoAttitude> Trajectory::at(double timestamp_s) const {
   const auto after = std::ranges::lower_bound(poses_, timestamp_s, {}, &RecordedPose::timestamp_s);
-  if (after == poses_.end()) return std::nullopt;
+  constexpr double kRoundingS = 0.001;
+  const auto is_at = [&](const RecordedPose& pose) {
+    return std::abs(pose.timestamp_s - timestamp_s) <= kRoundingS;
+  };
+  if (after == poses_.end())
+    return is_at(poses_.back()) ? std::optional(poses_.back().attitude) : std::nullopt;
   if (after->timestamp_s == timestamp_s) return after->attitude;
-  if (after == poses_.begin()) return std::nullopt;
+  if (after == poses_.begin())
+    return is_at(poses_.front()) ? std::optional(poses_.front().attitude) : std::nullopt;
   const RecordedPose& from = *(after - 1);
   const RecordedPose& to = *after;
   const double elapsed_s = to.timestamp_s - from.timestamp_s;

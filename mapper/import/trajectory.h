@@ -25,7 +25,7 @@ class Trajectory {
   const std::vector<RecordedPose>& poses() const { return poses_; }
 
   // Between two poses: the position on the line through them, the angles the short way round.
-  // Nothing before the first, after the last, or in a gap.
+  // Nothing before the first, after the last by more than times are rounded, or in a gap.
   std::optional<GeoAttitude> at(double timestamp_s) const;
 
   // Gives each pose the direction of the way from some metres behind it to some ahead; a standing

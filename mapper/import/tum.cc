@@ -16,6 +16,7 @@ Result<Recording> read_tum(const ImportOptions& options) {
       Eigen::AngleAxisd(-options.origin_heading_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()));
   Recording recording;
   recording.has_tilts = true;
+  recording.are_cameras = true;
   for (const NumberLine& line : *lines) {
     const std::vector<double>& v = line.numbers;
     const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
@@ -29,9 +30,7 @@ Result<Recording> read_tum(const ImportOptions& options) {
     world_from_camera.pretranslate(Eigen::Vector3d(v[1], v[2], v[3]));
     recording.poses.push_back({v[0], attitude_of(enu_from_world * world_from_camera, *frame)});
   }
-  auto images = timed_images(options.images, options.times);
-  if (!images) return images.error();
-  recording.images = std::move(*images);
+  if (const Status added = add_images(options, recording); !added) return added.error();
   return recording;
 }
 

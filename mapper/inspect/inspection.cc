@@ -103,6 +103,14 @@ double MapInspection::length_m() const {
   return sum_m;
 }
 
+double MapInspection::gaps_m() const {
+  double sum_m = 0;
+  for (const SegmentInspection& segment : segments) {
+    for (const AlongRange& gap : segment.gaps) sum_m += gap.to_m - gap.from_m;
+  }
+  return sum_m;
+}
+
 Result<MapInspection> inspect(const MapReader& map) {
   MapInspection inspected;
   inspected.file = map.file().string();
@@ -110,6 +118,7 @@ Result<MapInspection> inspect(const MapReader& map) {
   std::error_code error;
   inspected.bytes = std::filesystem::file_size(map.file(), error);
   inspected.bounds = map.bounds();
+  inspected.datum = map.datum();
   for (const auto& [name, parameters] : map.layers()) {
     const Result<nlohmann::json> json = read_json(parameters);
     LayerInspection layer{name, json ? items_named_in(*json) : ""};
@@ -147,6 +156,7 @@ Json to_json(const MapInspection& map) {
       {"length_m", map.length_m()},
       {"bounds_deg",
        {map.bounds.west_deg, map.bounds.south_deg, map.bounds.east_deg, map.bounds.north_deg}},
+      {"datum", map.datum.empty() ? Json(nullptr) : Json(map.datum)},
       {"layers", Json::array()},
       {"segments", Json::array()}};
   for (const LayerInspection& layer : map.layers) {
@@ -164,7 +174,8 @@ Json to_json(const MapInspection& map) {
 std::string text_of(const MapInspection& map) {
   std::string text = map.file + ": build " + map.build + ", " +
                      counted(map.segments.size(), "segment") + " of " + fixed(map.length_m(), 1) +
-                     " m, " + fixed(static_cast<double>(map.bytes) / 1e6, 2) + " MB\n";
+                     " m, " + fixed(static_cast<double>(map.bytes) / 1e6, 2) + " MB" +
+                     (map.datum.empty() ? "" : ", positions in " + map.datum) + "\n";
   for (const LayerInspection& layer : map.layers) {
     text += "layer " + layer.name + ": " + std::to_string(layer.count) + " " + layer.items +
             " in " + counted(layer.tiles, "tile") + ", " +

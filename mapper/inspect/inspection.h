@@ -33,11 +33,13 @@ struct MapInspection {
   std::string file;
   std::string build;
   std::uint64_t bytes = 0;  // of the file
+  std::string datum;        // Datum::text; empty: not stated
   Bounds bounds;
   std::vector<LayerInspection> layers;      // by name
   std::vector<SegmentInspection> segments;  // by id
 
   double length_m() const;
+  double gaps_m() const;  // of all segments
 };
 
 // Reads all tiles of the default method. Errors: those of MapReader; corrupt (a tile).

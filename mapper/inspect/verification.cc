@@ -8,6 +8,7 @@
 
 #include "schema/base/digits.h"
 #include "schema/base/json.h"
+#include "schema/document/mapping_record.h"
 #include "schema/geo/geodesy.h"
 #include "schema/tile/codec.h"
 #include "schema/tile/layer_items.h"
@@ -39,10 +40,19 @@ class Verification {
       tiles(*segment);
     }
     walls();
+    record();
     return std::move(findings_);
   }
 
  private:
+  // Of the mapping. That it is the build's has been checked.
+  void record() {
+    const Result<std::string> document = map_.mapping_document();
+    if (!document || document->empty()) return;
+    if (const auto read = mapping_record_from(*document); !read)
+      tell("malformed_record", "", read.error().what);
+  }
+
   void tell(const std::string& kind, const std::string& place, const std::string& what) {
     const std::string where = map_.file().string() + (place.empty() ? "" : ", " + place);
     findings_.push_back({kind, where, 0, 1, what, kMend});

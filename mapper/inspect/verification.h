@@ -10,8 +10,8 @@ namespace milepost {
 
 // What contradicts, of these kinds: damage (bytes that are not those of the build; the first), tile
 // (cannot be decoded, or is another one's), link (to a segment that is not in the map, or does not
-// begin where the other ends), line (whose lengths are not those of its vertices). Empty for a
-// sound map.
+// begin where the other ends), line (whose lengths are not those of its vertices),
+// malformed_record (of the mapping). Empty for a sound map.
 std::vector<Finding> contradictions_in(const MapReader& map);
 
 }  // namespace milepost

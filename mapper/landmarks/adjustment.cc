@@ -86,13 +86,15 @@ struct MountingError {
 struct TriangulatedTrack {
   const FeatureTrack* track;
   std::array<double, 3> enu_m;
+  double rms_px;
 };
 
 struct FittingTracks {
   std::vector<TriangulatedTrack> tracks;
-  std::size_t placed = 0;  // tracks that could be triangulated, of which these fit
+  std::vector<const FeatureTrack*> unfit;  // that could be triangulated, too
 
   double share() const {
+    const std::size_t placed = tracks.size() + unfit.size();
     return placed == 0 ? 1 : static_cast<double>(tracks.size()) / static_cast<double>(placed);
   }
 };
@@ -118,12 +120,23 @@ FittingTracks tracks_that_fit(const std::vector<FeatureTrack>& tracks,
     const auto placed = triangulate(track, poses, camera, 1);
     if (!placed) continue;
     if ((placed->enu_m - poses[track.front().frame].enu_m).norm() > kFarthestM) continue;
-    ++taken.placed;
-    if (placed->rms_px > max_rms_px) continue;
+    if (placed->rms_px > max_rms_px) {
+      taken.unfit.push_back(&track);
+      continue;
+    }
     for (const PixelObservation& observation : track) ++taken_of_frame[observation.frame];
-    taken.tracks.push_back({&track, {placed->enu_m.x(), placed->enu_m.y(), placed->enu_m.z()}});
+    taken.tracks.push_back(
+        {&track, {placed->enu_m.x(), placed->enu_m.y(), placed->enu_m.z()}, placed->rms_px});
   }
   return taken;
+}
+
+// How far an adjusted pose is from the recorded one, the mounting's yaw aside.
+PoseBlock off_record(const CameraPose& pose, const PoseBlock& recorded, double mounting_yaw) {
+  PoseBlock off = block_from(pose);
+  for (std::size_t axis = 0; axis < off.size(); ++axis) off[axis] -= recorded[axis];
+  off[3] -= mounting_yaw;
+  return off;
 }
 
 // The mean square, on each axis, of how far recorded poses are from the adjusted ones.
@@ -132,9 +145,7 @@ PoseBlock mean_squares_off(const std::vector<CameraPose>& poses,
                            double mounting_yaw) {
   PoseBlock squares{};
   for (std::size_t i = final_frames; i < poses.size(); ++i) {
-    PoseBlock off = block_from(poses[i]);
-    for (std::size_t axis = 0; axis < off.size(); ++axis) off[axis] -= recorded[i][axis];
-    off[3] -= mounting_yaw;
+    const PoseBlock off = off_record(poses[i], recorded[i], mounting_yaw);
     for (std::size_t axis = 0; axis < off.size(); ++axis)
       squares[axis] += off[axis] * off[axis] / static_cast<double>(poses.size() - final_frames);
   }
@@ -250,19 +261,34 @@ class Adjustment {
     solve_with(fitting_within(settings_.max_rms_px).tracks, believed_, settings_.pixel_sigma_px);
   }
 
-  ImageWitness witness() const {
-    ImageWitness witness;
-    witness.frames = poses_.size() - final_frames_;
-    if (witness.frames == 0) return witness;
-    const PoseBlock squares = mean_squares_off(poses_, recorded_, final_frames_, mounting_yaw_);
-    const auto frames = static_cast<double>(witness.frames);
-    witness.plan_m2 = frames * (squares[0] + squares[1]);
-    witness.up_m2 = frames * squares[2];
-    witness.heading_deg2 = frames * squares[3] * kDegPerRad * kDegPerRad;
+  // Of each frame beyond the constant ones.
+  std::vector<ImageWitness> witness() const {
+    std::vector<ImageWitness> of_frame(poses_.size() - final_frames_);
+    for (std::size_t i = final_frames_; i < poses_.size(); ++i) {
+      const PoseBlock off = off_record(poses_[i], recorded_[i], mounting_yaw_);
+      ImageWitness& witness = of_frame[i - final_frames_];
+      witness.frames = 1;
+      witness.plan_m2 = off[0] * off[0] + off[1] * off[1];
+      witness.up_m2 = off[2] * off[2];
+      witness.heading_deg2 = off[3] * off[3] * kDegPerRad * kDegPerRad;
+    }
+    const auto of_middle = [&](const FeatureTrack& track) -> ImageWitness* {
+      const std::size_t middle = track[track.size() / 2].frame;
+      return middle < final_frames_ ? nullptr : &of_frame[middle - final_frames_];
+    };
     const FittingTracks fitting = fitting_within(settings_.max_rms_px);
-    witness.tracks = fitting.placed;
-    witness.fitting = fitting.tracks.size();
-    return witness;
+    for (const TriangulatedTrack& track : fitting.tracks) {
+      ImageWitness* witness = of_middle(*track.track);
+      if (witness == nullptr) continue;
+      ++witness->tracks;
+      ++witness->fitting;
+      witness->observations += track.track->size();
+      witness->reprojection_px2 +=
+          track.rms_px * track.rms_px * static_cast<double>(track.track->size());
+    }
+    for (const FeatureTrack* track : fitting.unfit)
+      if (ImageWitness* witness = of_middle(*track)) ++witness->tracks;
+    return of_frame;
   }
 
  private:
@@ -309,19 +335,9 @@ class Adjustment {
 
 }  // namespace
 
-ImageWitness& ImageWitness::operator+=(const ImageWitness& other) {
-  frames += other.frames;
-  plan_m2 += other.plan_m2;
-  up_m2 += other.up_m2;
-  heading_deg2 += other.heading_deg2;
-  tracks += other.tracks;
-  fitting += other.fitting;
-  return *this;
-}
-
-ImageWitness adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
-                          const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
-                          const AdjustmentSettings& settings) {
+std::vector<ImageWitness> adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
+                                       const std::vector<FeatureTrack>& tracks,
+                                       const Pinhole& camera, const AdjustmentSettings& settings) {
   Adjustment adjustment(poses, final_frames, tracks, camera, settings);
   adjustment.run();
   return adjustment.witness();

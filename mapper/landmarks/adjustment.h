@@ -1,11 +1,11 @@
 // Bundle adjustment of a stretch of a mapping drive with its feature tracks.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "mapper/landmarks/feature_track.h"
+#include "mapper/landmarks/image_witness.h"
 #include "schema/geo/pinhole.h"
 
 namespace milepost {
@@ -32,38 +32,14 @@ struct AdjustmentSettings {
   int max_passes = 5;               // two, or more while the record seems worse than thought
 };
 
-// How well images fit a record, summed over frames and tracks so that windows add up.
-struct ImageWitness {
-  std::size_t frames = 0;  // that were adjusted
-  // Squares of how far the adjusted poses are from the recorded ones, the mounting's yaw aside.
-  double plan_m2 = 0;  // east and north together
-  double up_m2 = 0;
-  double heading_deg2 = 0;
-  std::size_t tracks = 0;   // that could be triangulated with the adjusted poses ...
-  std::size_t fitting = 0;  // ... and that fit them
-
-  double plan_rms_m() const { return root_of_mean(plan_m2); }
-  double up_rms_m() const { return root_of_mean(up_m2); }
-  double heading_rms_deg() const { return root_of_mean(heading_deg2); }
-  double fitting_share() const {
-    return tracks == 0 ? 1 : static_cast<double>(fitting) / static_cast<double>(tracks);
-  }
-  ImageWitness& operator+=(const ImageWitness& other);
-
- private:
-  double root_of_mean(double squares) const {
-    return frames == 0 ? 0 : std::sqrt(squares / static_cast<double>(frames));
-  }
-};
-
 // Minimizes the reprojection errors of all tracks over `poses`, with the recorded poses (as given)
 // as priors. How exact recorded positions and headings are from frame to frame is estimated on the
 // way (variance components), so that images outweigh a record that they contradict. The first
 // `final_frames` poses are constant. Single-threaded, so deterministic. Poses whose frames share no
-// track with others stay near their priors. Returns what the images say of the frames beyond the
-// constant ones.
-ImageWitness adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
-                          const std::vector<FeatureTrack>& tracks, const Pinhole& camera,
-                          const AdjustmentSettings& settings);
+// track with others stay near their priors. Returns what the images say of each frame beyond the
+// constant ones; a track counts in the frame in its middle.
+std::vector<ImageWitness> adjust_poses(std::vector<CameraPose>& poses, std::size_t final_frames,
+                                       const std::vector<FeatureTrack>& tracks,
+                                       const Pinhole& camera, const AdjustmentSettings& settings);
 
 }  // namespace milepost

@@ -109,7 +109,8 @@ void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after) {
   for (const PendingTrack& track : tracks_) {
     if (track.observations.back().frame < frames) inside.push_back(track.observations);
   }
-  witness_ += adjust_poses(poses, final_, inside, camera_, settings_.adjustment);
+  const std::vector<ImageWitness> witness =
+      adjust_poses(poses, final_, inside, camera_, settings_.adjustment);
 
   for (std::size_t i = final_; i < final_after; ++i) {
     const CameraPose& pose = poses[i];
@@ -117,6 +118,8 @@ void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after) {
     frames_[i].heading_rad = pose.heading_rad;
     frames_[i].pitch_rad = pose.pitch_rad;
     frames_[i].roll_rad = pose.roll_rad;
+    adjusted_.push_back({frames_[i].along_m, frames_[i].position, pose.heading_rad, pose.pitch_rad,
+                         pose.roll_rad, witness[i - final_]});
   }
   final_ = final_after;
   for (PendingTrack& track : tracks_) {

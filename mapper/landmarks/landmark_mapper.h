@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "mapper/landmarks/adjustment.h"
@@ -42,6 +43,16 @@ struct MappedLandmark {
       0;  // where it was mapped, in the middle of its range: right of the segment's line
 };
 
+// A frame with its final pose, and what the images say of the recorded one.
+struct AdjustedFrame {
+  double along_m = 0;
+  GeoPoint position;
+  double heading_rad = 0;
+  double pitch_rad = 0;
+  double roll_rad = 0;
+  ImageWitness witness;
+};
+
 // Not safe to use from several threads. Memory is bounded by the window, not by the drive.
 class LandmarkMapper {
  public:
@@ -56,8 +67,8 @@ class LandmarkMapper {
   // The landmarks, by end of their range, of which all is known by now. `finished` finalizes all.
   std::vector<MappedLandmark> take_mapped(bool finished);
 
-  // What the images say of the record so far; frames of two windows count twice.
-  const ImageWitness& witness() const { return witness_; }
+  // The frames whose poses have become final since the last call.
+  std::vector<AdjustedFrame> take_adjusted() { return std::exchange(adjusted_, {}); }
 
  private:
   struct RecordedPose {
@@ -89,7 +100,7 @@ class LandmarkMapper {
   std::vector<RecordedPose> frames_;  // kept frames
   std::size_t final_ = 0;             // number of frames_ with final poses
   std::vector<PendingTrack> tracks_;  // in the order of their ends
-  ImageWitness witness_;
+  std::vector<AdjustedFrame> adjusted_;
   VehiclesAhead vehicles_ahead_;
   std::deque<Placed> placed_;  // until it is known what is seen of vehicles after them
 };

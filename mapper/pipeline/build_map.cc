@@ -6,19 +6,26 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mapper/acceptance/check_point_survey.h"
 #include "mapper/codebook/codebook.h"
+#include "mapper/findings/datum_findings.h"
+#include "mapper/findings/witness_findings.h"
+#include "mapper/inspect/inspection.h"
 #include "mapper/pipeline/build_plan.h"
 #include "mapper/pipeline/frame_pipeline.h"
 #include "mapper/pipeline/fused_tiles.h"
 #include "mapper/pipeline/landmark_survey.h"
 #include "mapper/pipeline/layer_builder.h"
 #include "mapper/pipeline/layers.h"
+#include "mapper/pipeline/mapping_log.h"
 #include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
 
 using OnProgress = std::function<bool(const BuildProgress&)>;
+using AdjustedUse =
+    std::function<void(const Frame& recorded, const AdjustedFrame&, const WitnessedPlace&)>;
 
 struct NamedBuilder {
   std::string layer;
@@ -44,8 +51,8 @@ class StretchBuilder {
   }
 
   // Adds its counts to the last of the report's drives.
-  Status run(int jobs, DividedMap& map, BuildReport& report, BuildProgress& progress,
-             const OnProgress& on_progress) {
+  Status run(int jobs, DividedMap& map, BuildReport& report, const AdjustedUse& use_adjusted,
+             BuildProgress& progress, const OnProgress& on_progress) {
     FramePipeline frames(drive_, plan_.frame_indices, settings_.feature, settings_.lab, jobs);
     for (std::size_t i = 0; i < plan_.frame_indices.size(); ++i) {
       const double along_m = plan_.line.along_m()[i];
@@ -66,7 +73,11 @@ class StretchBuilder {
     }
     const Status written =
         add_and_write(tracker_.finish(), std::numeric_limits<double>::infinity(), map, report);
-    report.drives.back().witness += survey_.witness();
+    for (const AdjustedFrame& frame : survey_.take_adjusted()) {
+      const auto vertex = std::ranges::lower_bound(plan_.line.along_m(), frame.along_m);
+      const auto index = static_cast<std::size_t>(vertex - plan_.line.along_m().begin());
+      use_adjusted(drive_.frames[plan_.frame_indices[index]], frame, survey_.place_of(frame));
+    }
     return written;
   }
 
@@ -138,6 +149,37 @@ Status check_fit(const DriveReport& drive, const BuildSettings& settings) {
                "check its camera and poses, leave the drive out, or lower min-fitting-share"};
 }
 
+std::vector<const Drive*> drives_of(const BuildPlan& plan) {
+  std::vector<const Drive*> drives;
+  drives.reserve(plan.drives.size());
+  for (const DrivePlan& drive : plan.drives) drives.push_back(drive.drive);
+  return drives;
+}
+
+std::vector<CheckPointResidual> residuals_of(const CheckPointSurvey& survey, const BuildPlan& plan,
+                                             const SlowErrors& errors) {
+  std::vector<const RouteLine*> lines;
+  for (const DrivePlan& drive : plan.drives) {
+    for (const StretchPlan& stretch : drive.stretches) lines.push_back(&stretch.line);
+  }
+  return survey.residuals(
+      drives_of(plan),
+      [&](std::size_t stretch, double along_m) { return errors.error(stretch, along_m); },
+      [&](std::size_t stretch) -> const RouteLine& { return *lines[stretch]; });
+}
+
+Status check_residuals(const std::vector<CheckPointResidual>& residuals,
+                       const std::optional<double>& max_m, const std::filesystem::path& map_file) {
+  const CheckPointSummary summary = summary_of(residuals);
+  if (!max_m || (summary.placed > 0 && summary.plan_rms_m <= *max_m)) return ok_status();
+  return Error{ErrorCode::invalid_input, map_file.string(),
+               summary.placed == 0 ? std::string("none of the check points could be placed")
+                                   : "check points are off by " + fixed(summary.plan_rms_m, 3) +
+                                         " m in plan (root mean square), more than max-check-m: " +
+                                         fixed(*max_m, 3) + " m; the worst is " + summary.worst,
+               "check the marks, the drives' positions and their datum"};
+}
+
 }  // namespace
 
 Error nothing_found(const DriveReport& drive) {
@@ -151,7 +193,9 @@ Error nothing_found(const DriveReport& drive) {
 
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
-                              int jobs, const OnProgress& on_progress) {
+                              int jobs, const OnProgress& on_progress, const BuildChecks& checks) {
+  const Result<Datum> datum = common_datum(drives);
+  if (!datum) return datum.error();
   const Result<BuildPlan> plan = plan_build(drives, settings, jobs);
   if (!plan) return plan.error();
   if (settings.lab) {
@@ -162,6 +206,7 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   Result<DividedMap> map = DividedMap::create(*plan, map_file, settings.division);
   if (!map) return map.error();
   Status status = map->set_feature_json(to_json(settings.feature).dump());
+  if (status.ok()) status = map->set_datum(*datum);
   for (const Layer& layer : layers_of(settings)) {
     if (status.ok())
       status = map->add_layer(
@@ -173,15 +218,25 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
   if (!store) return store.error();
   BuildReport report;
   report.findings = plan->findings;
+  MappingLog log;
+  CheckPointSurvey survey(checks.check_points);
+  std::size_t stretch_number = 0;
   BuildProgress progress;
   for (const DrivePlan& drive : plan->drives) progress.frames_total += drive.frames();
   for (const DrivePlan& drive : plan->drives) {
     report.drives.push_back({.folder = drive.drive->folder.string()});
+    const AdjustedUse use_adjusted = [&](const Frame& recorded, const AdjustedFrame& adjusted,
+                                         const WitnessedPlace& place) {
+      log.add(*drive.drive, place);
+      survey.add(*drive.drive, recorded.filename, stretch_number, adjusted);
+    };
     for (const StretchPlan& stretch : drive.stretches) {
       if (!status.ok()) break;
       status = StretchBuilder(*drive.drive, stretch, *plan, codebook, settings, *store)
-                   .run(jobs, *map, report, progress, on_progress);
+                   .run(jobs, *map, report, use_adjusted, progress, on_progress);
+      ++stretch_number;
     }
+    report.drives.back().witness = log.of_drive(drive.drive->name);
     const bool is_mapped = !drive.stretches.empty();
     if (status.ok() && is_mapped && report.drives.back().tracklets == 0 && !settings.allow_empty) {
       status = nothing_found(report.drives.back());
@@ -189,15 +244,37 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     if (status.ok()) status = check_fit(report.drives.back(), settings);
   }
   if (status.ok()) {
-    const auto known = build_fused_tiles(
+    const auto fused = build_fused_tiles(
         *plan, *store, codebook, settings,
         [&](const BuiltTile& tile) { return map->add_tile(layers::kLandmarks, tile); });
-    status = known ? map->set_position_errors(*plan, *known) : Status(known.error());
+    status = fused ? map->set_position_errors(*plan, fused->left) : Status(fused.error());
+    if (status.ok()) {
+      report.check_points = residuals_of(survey, *plan, fused->errors);
+      status = check_residuals(report.check_points, checks.max_check_m, map_file);
+    }
+  }
+  for (const DriveReport& drive : report.drives) {
+    const std::vector<Finding> witnessed = witness_findings(drive.folder, drive.witness);
+    report.findings.insert(report.findings.end(), witnessed.begin(), witnessed.end());
+  }
+  if (status.ok()) {
+    const std::vector<const Drive*> mapped = drives_of(*plan);
+    log.add(checks.found_before, mapped);
+    log.add(report.findings, mapped);
+    log.set_check_points(report.check_points);
+    status = map->set_mapping(*plan, log);
   }
   if (!status.ok()) return status.error();
   Result<std::vector<MapReport>> maps = map->finish();
   if (!maps) return maps.error();
   report.maps = std::move(*maps);
+  for (MapReport& written : report.maps) {
+    const Result<MapReader> reader = MapReader::open(written.file);
+    if (!reader) return reader.error();
+    const Result<MapInspection> inspected = inspect(*reader);
+    if (!inspected) return inspected.error();
+    written.sparse_m = inspected->gaps_m();
+  }
   report.frames = progress.frames_done;
   return report;
 }

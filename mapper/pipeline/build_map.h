@@ -3,14 +3,17 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mapper/acceptance/check_points.h"
 #include "mapper/findings/finding.h"
 #include "mapper/landmarks/adjustment.h"
 #include "mapper/pipeline/divided_map.h"
 #include "mapper/pipeline/settings.h"
 #include "schema/base/result.h"
+#include "schema/document/mapping_record.h"
 #include "schema/drive/drive.h"
 
 namespace milepost {
@@ -31,10 +34,18 @@ struct DriveReport {
   ImageWitness witness = {};  // what its images say of its poses
 };
 
+// What is held against a map, and recorded in it beside what the build finds.
+struct BuildChecks {
+  std::vector<Finding> found_before;     // about the drives alone
+  std::vector<CheckPoint> check_points;  // surveyed marks
+  std::optional<double> max_check_m;     // root mean square in plan; the build fails beyond it
+};
+
 struct BuildReport {
   std::vector<MapReport> maps;      // one, or one on either side of the border
   std::vector<DriveReport> drives;  // by name
   std::vector<Finding> findings;    // about the drives and their network
+  std::vector<CheckPointResidual> check_points;
   std::size_t frames = 0;
 };
 
@@ -45,10 +56,12 @@ Error nothing_found(const DriveReport& drive);
 // drives and settings, not on the order of the drives. `on_progress` is called after each frame,
 // from this thread; the build ends with `cancelled` once it returns false. `map_file`, and the map
 // beyond a border, are created or replaced only after success. Errors: invalid_input, also for a
-// drive without any tracklet unless the settings allow it; io; cancelled.
+// drive without any tracklet unless the settings allow it, and for check points that are too far
+// off; io; cancelled.
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
                               int jobs,
-                              const std::function<bool(const BuildProgress&)>& on_progress);
+                              const std::function<bool(const BuildProgress&)>& on_progress,
+                              const BuildChecks& checks = {});
 
 }  // namespace milepost

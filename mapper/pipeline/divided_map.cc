@@ -57,6 +57,25 @@ Status DividedMap::set_feature_json(const std::string& json) {
   return ok_status();
 }
 
+Status DividedMap::set_datum(const Datum& datum) {
+  for (Side& side : sides_) {
+    if (const Status set = side.writer.set_datum(datum.text()); !set.ok()) return set;
+  }
+  return ok_status();
+}
+
+Status DividedMap::set_mapping(const BuildPlan& plan, const MappingLog& log) {
+  for (Side& side : sides_) {
+    std::set<std::string> ids;
+    for (const StoredSegment& segment : plan.segments) {
+      if (&side_of(segment.id) == &side) ids.insert(segment.id);
+    }
+    const std::string document = mapping_document(log.record_of(ids));
+    if (const Status set = side.writer.set_mapping_document(document); !set.ok()) return set;
+  }
+  return ok_status();
+}
+
 Status DividedMap::add_layer(const std::string& name, const std::string& parameters_json) {
   for (Side& side : sides_) {
     const Status added = side.writer.add_layer(name, parameters_json);

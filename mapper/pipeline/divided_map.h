@@ -9,8 +9,10 @@
 
 #include "mapper/pipeline/build_plan.h"
 #include "mapper/pipeline/layer_builder.h"
+#include "mapper/pipeline/mapping_log.h"
 #include "mapper/pipeline/settings.h"
 #include "schema/base/result.h"
+#include "schema/geo/datum.h"
 #include "schema/store/map_store.h"
 
 namespace milepost {
@@ -27,6 +29,7 @@ struct MapReport {
   std::size_t repeated = 0;          // its tracklets that two drives or more saw
   double position_square_m3 = 0;     // its position errors: squares, times the length of road
   double assumed_m = 0;              // of road where they are assumed
+  double sparse_m = 0;               // of road where too few landmarks are seen to localize by
 };
 
 // Each segment and its tiles go to the map on its side; successors on the other side name the other
@@ -41,6 +44,9 @@ class DividedMap {
 
   // Errors of all below: those of MapWriter.
   Status set_feature_json(const std::string& json);
+  Status set_datum(const Datum& datum);
+  // Each map gets what concerns its segments. REQUIRES: the same plan.
+  Status set_mapping(const BuildPlan& plan, const MappingLog& log);
   Status add_layer(const std::string& name, const std::string& parameters_json);
   // REQUIRES: the same plan, an error for each of its segments.
   Status set_position_errors(const BuildPlan& plan, const std::vector<PositionError>& errors);

@@ -175,14 +175,16 @@ class FusedTiles {
 
 }  // namespace
 
-Result<std::vector<PositionError>> build_fused_tiles(
-    const BuildPlan& plan, LandmarkStore& store, const PcaProjection& projection,
-    const BuildSettings& settings, const std::function<Status(const BuiltTile&)>& use) {
+Result<FusedResult> build_fused_tiles(const BuildPlan& plan, LandmarkStore& store,
+                                      const PcaProjection& projection,
+                                      const BuildSettings& settings,
+                                      const std::function<Status(const BuiltTile&)>& use) {
   FusedTiles tiles(plan, store, projection, settings);
-  const Result<SlowErrors> errors = tiles.slow_errors();
+  Result<SlowErrors> errors = tiles.slow_errors();
   if (!errors) return errors.error();
   if (const Status built = tiles.build(*errors, use); !built.ok()) return built.error();
-  return tiles.position_errors(*errors);
+  std::vector<PositionError> left = tiles.position_errors(*errors);
+  return FusedResult{std::move(left), std::move(*errors)};
 }
 
 }  // namespace milepost

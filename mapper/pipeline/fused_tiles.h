@@ -10,13 +10,19 @@
 
 namespace milepost {
 
+struct FusedResult {
+  std::vector<PositionError> left;  // how well each of the plan's segments is known
+  SlowErrors errors;                // by which the landmarks were moved; stretches as in the plan
+};
+
 // Estimates how far the drives' positions are off where they passed one road together, moves their
 // landmarks by that, and makes those of one feature one. Passes each tile that holds anything to
-// `use`, each segment's ascending. Returns how well each of the plan's segments is known then.
+// `use`, each segment's ascending.
 // Errors: those of the store and of `use`; invalid_input for a tile that holds more than the format
 // allows.
-Result<std::vector<PositionError>> build_fused_tiles(
-    const BuildPlan& plan, LandmarkStore& store, const PcaProjection& projection,
-    const BuildSettings& settings, const std::function<Status(const BuiltTile&)>& use);
+Result<FusedResult> build_fused_tiles(const BuildPlan& plan, LandmarkStore& store,
+                                      const PcaProjection& projection,
+                                      const BuildSettings& settings,
+                                      const std::function<Status(const BuiltTile&)>& use);
 
 }  // namespace milepost

@@ -52,4 +52,19 @@ Result<std::size_t> LandmarkSurvey::store(bool finished) {
   return stored;
 }
 
+WitnessedPlace LandmarkSurvey::place_of(const AdjustedFrame& frame) const {
+  WitnessedPlace place{{}, 0, frame.witness};
+  for (const MappedPass& pass : stretch_.passes) {
+    if (!pass.on_stretch.contains(frame.along_m)) continue;
+    const FusedSegment& segment = plan_.fused[pass.segment];
+    place.segment = segment.id;
+    place.along_m =
+        pass.is_line
+            ? frame.along_m - pass.on_stretch.from_m
+            : on_segment(frame.along_m, stretch_.line, pass.on_stretch, segment.line).along_m;
+    break;
+  }
+  return place;
+}
+
 }  // namespace milepost

@@ -1,6 +1,7 @@
 // The landmarks of one stretch, placed on the segments that it passes.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mapper/fusion/landmark_store.h"
@@ -15,6 +16,12 @@ namespace milepost {
 // from the segment.
 std::optional<PassLandmark> placed_on(const MappedLandmark& landmark, const RouteLine& driven,
                                       const MappedPass& pass, const RouteLine& segment);
+
+struct WitnessedPlace {
+  std::string segment;  // its id; empty: on none
+  double along_m = 0;   // of the segment
+  ImageWitness witness;
+};
 
 // Not safe to use from several threads.
 class LandmarkSurvey {
@@ -34,7 +41,10 @@ class LandmarkSurvey {
   // Stores what has become final; everything once `finished`. Returns how many landmarks.
   // Errors: those of LandmarkStore.
   Result<std::size_t> store(bool finished);
-  const ImageWitness& witness() const { return mapper_.witness(); }
+  // The frames whose poses have become final since the last call.
+  std::vector<AdjustedFrame> take_adjusted() { return mapper_.take_adjusted(); }
+  // What the images say of such a frame, with the segment that it is on, if any.
+  WitnessedPlace place_of(const AdjustedFrame& frame) const;
 
  private:
   const StretchPlan& stretch_;

@@ -1,7 +1,5 @@
 #include "schema/document/manifest.h"
 
-#include <optional>
-
 #include "schema/base/digest.h"
 #include "schema/base/ids.h"
 #include "schema/base/json.h"
@@ -64,10 +62,12 @@ std::string manifest_document(const Manifest& manifest) {
     segments.push_back(listed_json(document));
     segments.back()["segment"] = id;
   }
-  return canonical_json({{"format", kMapFormat},
-                         {"map", listed_json(manifest.map)},
-                         {"areas", listed_json(manifest.areas)},
-                         {"segments", std::move(segments)}});
+  json document = {{"format", kMapFormat},
+                   {"map", listed_json(manifest.map)},
+                   {"areas", listed_json(manifest.areas)},
+                   {"segments", std::move(segments)}};
+  if (manifest.mapping) document["mapping"] = listed_json(*manifest.mapping);
+  return canonical_json(document);
 }
 
 Result<Manifest> manifest_from(std::string_view text) {
@@ -80,7 +80,11 @@ Result<Manifest> manifest_from(std::string_view text) {
   const auto map = listed_in(object->value("map", json()));
   const auto areas = listed_in(object->value("areas", json()));
   if (!map || !areas) return no_manifest(R"("map" or "areas" is not bytes and a digest)");
-  Manifest manifest{*map, *areas, {}};
+  Manifest manifest{*map, *areas};
+  if (const auto mapping = object->find("mapping"); mapping != object->end()) {
+    manifest.mapping = listed_in(*mapping);
+    if (!manifest.mapping) return no_manifest(R"("mapping" is not bytes and a digest)");
+  }
   const json segments = object->value("segments", json());
   if (!segments.is_array()) return no_manifest("\"segments\" is not a list");
   for (const json& segment : segments) {

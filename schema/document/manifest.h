@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -29,7 +30,8 @@ struct ListedDocument {
 struct Manifest {
   ListedDocument map;
   ListedDocument areas;
-  std::map<std::string, ListedDocument> segments;  // by id
+  std::map<std::string, ListedDocument> segments = {};  // by id
+  std::optional<ListedDocument> mapping = {};
 };
 
 std::string manifest_document(const Manifest& manifest);

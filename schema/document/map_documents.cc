@@ -91,12 +91,11 @@ Result<std::string> map_document(const MapSummary& map) {
   }
   Result<json> feature = parameters_object(map.feature_json, "feature parameters");
   if (!feature) return feature.error();
-  return canonical_json({{"layers", std::move(layers)},
-                         {"layer_parameters", std::move(parameters)},
-                         {"feature", std::move(*feature)},
-                         {"bounds", bounds_json(map.bounds)},
-                         {"segment_count", map.segments},
-                         {"length_m", map.length_m}});
+  json document = {{"layers", std::move(layers)},    {"layer_parameters", std::move(parameters)},
+                   {"feature", std::move(*feature)}, {"bounds", bounds_json(map.bounds)},
+                   {"segment_count", map.segments},  {"length_m", map.length_m}};
+  if (!map.datum.empty()) document["datum"] = map.datum;
+  return canonical_json(document);
 }
 
 std::string segment_document(const StoredSegment& segment, const TileIndices& tiles) {

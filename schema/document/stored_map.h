@@ -89,6 +89,8 @@ struct MapSummary {
   std::map<std::string, std::string> layers;  // name -> parameters, a JSON object
   std::string feature_json = "{}";            // the feature parameters, a JSON object
   Bounds bounds = {};
+  std::string datum = {};      // Datum::text; empty: not stated
+  std::string mapping = {};    // the document of mapping_record.h; empty: none
   std::uint64_t segments = 0;  // their number ...
   double length_m = 0;         // ... and total length
 };

@@ -200,6 +200,15 @@ PositionFrame read_frame(KeyReader& keys, const Json& root) {
   return frame == "local" ? PositionFrame::local : PositionFrame::geographic;
 }
 
+Datum read_datum(KeyReader& keys, const Json& root) {
+  const std::string text = keys.optional_text(root, "datum");
+  if (text.empty()) return {};
+  Result<Datum> datum = Datum::from(text);
+  if (datum) return std::move(*datum);
+  keys.fail("datum", datum.error().what, datum.error().hint);
+  return {};
+}
+
 GeoPoint read_origin(KeyReader& keys, const Json& root) {
   const Json& object = keys.object(root, "origin");
   const GeoPoint origin{keys.number(object, "origin.", "latitude_deg"),
@@ -240,6 +249,7 @@ Result<Drive> read_description(const fs::path& folder) {
   drive.camera = camera_of(keys, root);
   drive.position_frame = read_frame(keys, root);
   if (drive.position_frame == PositionFrame::local) drive.origin = read_origin(keys, root);
+  drive.datum = read_datum(keys, root);
   drive.images = keys.text(root, "images");
   drive.captured = keys.optional_text(root, "captured");
   drive.licence = keys.optional_text(root, "licence");
@@ -287,6 +297,7 @@ Result<std::string> description_text(const Drive& drive) {
   } else {
     root["frame"] = "geographic";
   }
+  if (drive.datum.is_stated()) root["datum"] = drive.datum.text();
   root["images"] = drive.images;
   if (!drive.captured.empty()) root["captured"] = drive.captured;
   if (!drive.licence.empty()) root["licence"] = drive.licence;

@@ -8,6 +8,7 @@
 
 #include "schema/base/result.h"
 #include "schema/geo/camera.h"
+#include "schema/geo/datum.h"
 #include "schema/geo/geodesy.h"
 #include "schema/geo/odometry.h"
 
@@ -45,6 +46,7 @@ struct Drive {
   Camera camera;
   PositionFrame position_frame = PositionFrame::geographic;
   std::optional<GeoPoint> origin;  // of a local frame
+  Datum datum;                     // of all positions
   std::string images;              // folder of the frames inside `folder`
   std::string captured;
   std::string licence;

@@ -13,7 +13,7 @@ namespace milepost {
 // same pixels without the defect. Bytes after the image's end are ignored. Formats other than JPEG
 // and PNG are returned unchanged: their decoder reports errors. Safe from several threads.
 // Errors (`what` begins with a verb, `where` is left to the caller): invalid_input for an image
-// that is truncated, damaged or cannot be decoded.
+// that is truncated, damaged, CMYK or cannot be decoded.
 Result<std::string> sound_image(std::string bytes);
 
 // The same for one format. REQUIRES: `bytes` begin with the signature of this format.

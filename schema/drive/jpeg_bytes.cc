@@ -23,7 +23,7 @@ constexpr int kEndOfImage = 0xd9;
 constexpr int kExif = JPEG_APP0 + 1;
 constexpr unsigned kLongestMarker = 0xffff;
 
-enum class JpegVerdict { whole, flawed, cut_short, damaged, not_decodable };
+enum class JpegVerdict { whole, flawed, cut_short, damaged, for_print, not_decodable };
 
 // Handlers that the library calls instead of writing to standard error and ending the program.
 struct Complaints {
@@ -138,6 +138,8 @@ JpegVerdict read_jpeg(Codecs& codecs, const std::string& bytes) {
   jpeg_mem_src(&codecs.image, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_save_markers(&codecs.image, kExif, kLongestMarker);
   jpeg_read_header(&codecs.image, TRUE);
+  constexpr int kColors = 3;
+  if (codecs.image.num_components > kColors) return JpegVerdict::for_print;
   jvirt_barray_ptr* coefficients = jpeg_read_coefficients(&codecs.image);
   if (!has_all_scans(codecs.image, codecs.complaints.ran_out)) return JpegVerdict::cut_short;
   if (!codecs.complaints.flawed) return JpegVerdict::whole;
@@ -158,6 +160,9 @@ Result<std::string> sound_jpeg(std::string bytes) {
       return cut_short();
     case JpegVerdict::damaged:
       return damaged();
+    case JpegVerdict::for_print:
+      return Error{ErrorCode::invalid_input, "", "is a CMYK image, for print",
+                   "write grey values, or red, green and blue"};
     case JpegVerdict::not_decodable:
       break;
   }

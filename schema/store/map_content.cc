@@ -211,15 +211,15 @@ Result<CellIndices> MapContent::cells() const {
   return cells;
 }
 
-Result<Manifest> manifest_of(const sqlite::Database& map, const std::string& feature_json,
-                             const Bounds& bounds) {
+Result<Manifest> manifest_of(const sqlite::Database& map, MapSummary stated) {
   Result<MapContent> content = MapContent::of(map);
   if (!content) return content.error();
   Result<MapSummary> summary = content->summary();
   if (!summary) return summary.error();
-  summary->feature_json = feature_json;
-  summary->bounds = bounds;
-  const Result<std::string> document = map_document(*summary);
+  stated.layers = std::move(summary->layers);
+  stated.segments = summary->segments;
+  stated.length_m = summary->length_m;
+  const Result<std::string> document = map_document(stated);
   if (!document) {
     return corrupt(map.file().string() + ", " + document.error().where, document.error().what);
   }
@@ -227,7 +227,8 @@ Result<Manifest> manifest_of(const sqlite::Database& map, const std::string& fea
   if (!cells) return cells.error();
   const Result<std::vector<std::string>> ids = content->segment_ids();
   if (!ids) return ids.error();
-  Manifest manifest{ListedDocument::of(*document), ListedDocument::of(areas_document(*cells)), {}};
+  Manifest manifest{ListedDocument::of(*document), ListedDocument::of(areas_document(*cells))};
+  if (!stated.mapping.empty()) manifest.mapping = ListedDocument::of(stated.mapping);
   for (const std::string& id : *ids) {
     const Result<SegmentContent> segment = content->segment(id);
     if (!segment) return segment.error();

@@ -30,7 +30,7 @@ class MapContent {
   // Errors of all: corrupt, which names the place in the file; io.
   static Result<MapContent> of(const sqlite::Database& map);
 
-  // Without the bounds and the feature parameters, which the table meta has.
+  // Without what the table meta has.
   Result<MapSummary> summary() const;
   Result<std::vector<std::string>> segment_ids() const;  // ascending
   Result<SegmentContent> segment(const std::string& id);
@@ -50,10 +50,9 @@ class MapContent {
   std::vector<sqlite::Statement> queries_;
 };
 
-// The manifest of the tables' content. `feature_json` and `bounds` complete the summary. Errors:
-// those of MapContent.
-Result<Manifest> manifest_of(const sqlite::Database& map, const std::string& feature_json,
-                             const Bounds& bounds);
+// The manifest of the tables' content. Of `stated` is taken what the table meta has. Errors: those
+// of MapContent.
+Result<Manifest> manifest_of(const sqlite::Database& map, MapSummary stated);
 
 // The smallest box around all vertices and cells; zeros without either.
 Result<Bounds> bounds_of(const sqlite::Database& map);

@@ -102,15 +102,26 @@ struct MapReader::Impl {
     return ok_status();
   }
 
-  // Passes the value of `key` in the table meta to `use`.
+  // Passes the value of `key` in the table meta to `use`. Returns whether there is one.
   template <class Use>
-  Status read_meta(const char* key, Use use) {
+  Result<bool> read_meta_if_any(const char* key, Use use) {
     Rows row(query(kMeta).bind(1, std::string_view(key)));
     const Result<bool> found = row.next();
+    if (found && *found) use(row);
+    return found;
+  }
+
+  template <class Use>
+  Status read_meta(const char* key, Use use) {
+    const Result<bool> found = read_meta_if_any(key, use);
     if (!found) return found.error();
     if (!*found) return corrupt(place(), std::string("the map lacks its ") + key);
-    use(row);
     return ok_status();
+  }
+
+  Status read_text_if_any(const char* key, std::string& value) {
+    const auto found = read_meta_if_any(key, [&](const Rows& row) { value = row->text(0); });
+    return found ? ok_status() : Status(found.error());
   }
 
   Status read_number(const char* key, double& value) {
@@ -154,6 +165,7 @@ struct MapReader::Impl {
     if (!read) return read.error();
     summary = std::move(*read);
     Status status = read_text("feature", summary.feature_json);
+    if (status.ok()) status = read_text_if_any("datum", summary.datum);
     if (status.ok()) status = read_bounds();
     if (!status.ok()) return status;
     Result<std::vector<std::string>> ids = content->segment_ids();
@@ -167,8 +179,9 @@ struct MapReader::Impl {
 
   Status check_summary() const {
     if (!manifest.map.is(map_document)) {
-      return corrupt(place(),
-                     "its layers, parameters, bounds or lengths are not those of build " + build);
+      return corrupt(
+          place(),
+          "its layers, parameters, bounds, datum or lengths are not those of build " + build);
     }
     const bool same_segments = std::ranges::equal(segment_ids, manifest.segments, {}, {},
                                                   [](const auto& listed) { return listed.first; });
@@ -267,6 +280,7 @@ const fs::path& MapReader::file() const { return impl_->database.file(); }
 const std::string& MapReader::build() const { return impl_->build; }
 const std::string& MapReader::feature_json() const { return impl_->summary.feature_json; }
 const Bounds& MapReader::bounds() const { return impl_->summary.bounds; }
+const std::string& MapReader::datum() const { return impl_->summary.datum; }
 const std::map<std::string, std::string>& MapReader::layers() const {
   return impl_->summary.layers;
 }
@@ -360,8 +374,20 @@ Result<Bytes> MapReader::cell(const std::string& layer, const CellEntry& entry) 
       entry.digest, impl_->place() + ", " + cell_name(layer, entry.cell));
 }
 
+Result<std::string> MapReader::mapping_document() const {
+  std::string text;
+  if (Status read = impl_->read_text_if_any("mapping", text); !read) return read.error();
+  const std::optional<ListedDocument>& listed = impl_->manifest.mapping;
+  if (listed ? listed->is(text) : text.empty()) return text;
+  return corrupt(impl_->place(), "the record of its mapping is not that of build " + impl_->build);
+}
+
 Status MapReader::verify() const {
-  return verify_map(impl_->database, impl_->build, impl_->summary);
+  Result<std::string> mapping = mapping_document();
+  if (!mapping) return mapping.error();
+  MapSummary stated = impl_->summary;
+  stated.mapping = std::move(*mapping);
+  return verify_map(impl_->database, impl_->build, stated);
 }
 
 }  // namespace milepost

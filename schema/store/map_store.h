@@ -36,6 +36,7 @@ class MapReader {
   const std::string& build() const;         // digest of the manifest
   const std::string& feature_json() const;  // the feature parameters, a JSON object
   const Bounds& bounds() const;
+  const std::string& datum() const;  // of all positions, Datum::text; empty: not stated
   const std::map<std::string, std::string>& layers() const;  // name -> parameters, a JSON object
   const std::vector<std::string>& segment_ids() const;       // in the order of the ids
   // Documents that the build covers (FORMAT.md 7).
@@ -58,7 +59,8 @@ class MapReader {
   // The same for an entry of the tile index.
   Result<Bytes> tile(const std::string& segment, const std::string& layer,
                      const TileEntry& entry) const;
-  Result<std::string> areas_document() const;  // the index of the cells
+  Result<std::string> areas_document() const;    // the index of the cells
+  Result<std::string> mapping_document() const;  // of mapping_record.h; empty: none
   // The index of every cell of the layer, ascending; empty for a layer of segments.
   Result<std::vector<CellEntry>> cell_index(const std::string& layer) const;
   // The cells of the index that intersect the box, ascending.
@@ -91,7 +93,9 @@ class MapWriter {
 
   // Errors of all below: io (disk full); invalid_input for an id, a name or a number that cannot
   // be stored. After an error of SQLite every call returns that error.
-  Status set_feature_json(const std::string& json);  // "{}" if not called
+  Status set_feature_json(const std::string& json);      // "{}" if not called
+  Status set_datum(const std::string& datum);            // Datum::text
+  Status set_mapping_document(const std::string& text);  // as mapping_document() writes it
   Status add_layer(const std::string& name, const std::string& parameters_json);
   Status add_segment(const StoredSegment& segment);
   // Replaces what was added with the segment. REQUIRES: it was added.

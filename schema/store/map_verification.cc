@@ -46,7 +46,7 @@ Status check_frames(const sqlite::Database& map) {
 Status check_content(const sqlite::Database& map, const std::string& build,
                      const MapSummary& stated) {
   const std::string place = map.file().string();
-  const Result<Manifest> manifest = manifest_of(map, stated.feature_json, stated.bounds);
+  const Result<Manifest> manifest = manifest_of(map, stated);
   if (!manifest) return manifest.error();
   const std::string computed = digest_of(as_bytes(manifest_document(*manifest)));
   if (computed != build) {

@@ -5,6 +5,8 @@
 #include "schema/base/file.h"
 #include "schema/base/json.h"
 #include "schema/document/manifest.h"
+#include "schema/document/stored_map.h"
+#include "schema/geo/datum.h"
 #include "schema/store/map_checks.h"
 #include "schema/store/map_content.h"
 #include "schema/store/map_output.h"
@@ -90,7 +92,7 @@ struct MapWriter::Impl {
   fs::path file;
   fs::path partial;                // empty once it is published
   std::optional<Session> session;  // until finish()
-  std::string feature_json = "{}";
+  MapSummary stated;               // what the table meta will have
   std::int64_t frames = 0;
   Status failure;  // the first one, which is final: without a journal there is no rollback
 
@@ -199,12 +201,15 @@ struct MapWriter::Impl {
   Result<std::string> complete() {
     const Result<Bounds> bounds = bounds_of(session->database);
     if (!bounds) return bounds.error();
-    const Result<Manifest> manifest = manifest_of(session->database, feature_json, *bounds);
+    stated.bounds = *bounds;
+    const Result<Manifest> manifest = manifest_of(session->database, stated);
     if (!manifest) return manifest.error();
     const std::string document = manifest_document(*manifest);
     std::string build = digest_of(as_bytes(document));
     Status status = add_bounds(*bounds);
-    if (status.ok()) status = add_meta("feature", feature_json);
+    if (status.ok()) status = add_meta("feature", stated.feature_json);
+    if (status.ok() && !stated.datum.empty()) status = add_meta("datum", stated.datum);
+    if (status.ok() && !stated.mapping.empty()) status = add_meta("mapping", stated.mapping);
     if (status.ok()) status = add_meta("manifest", document);
     if (status.ok()) status = add_meta("build", build);
     if (status.ok()) status = session->database.execute("COMMIT");
@@ -237,7 +242,23 @@ Status MapWriter::set_feature_json(const std::string& json) {
   if (!is_json_object(json)) {
     return wrong_call(impl_->file, "the feature parameters are not a JSON object (FORMAT.md 2.3)");
   }
-  impl_->feature_json = json;
+  impl_->stated.feature_json = json;
+  return ok_status();
+}
+
+Status MapWriter::set_datum(const std::string& datum) {
+  if (!impl_->failure.ok()) return impl_->failure;
+  if (!datum.empty() && !Datum::from(datum))
+    return wrong_call(impl_->file, "'" + datum + "' is no datum");
+  impl_->stated.datum = datum;
+  return ok_status();
+}
+
+Status MapWriter::set_mapping_document(const std::string& text) {
+  if (!impl_->failure.ok()) return impl_->failure;
+  if (!text.empty() && !is_json_object(text))
+    return wrong_call(impl_->file, "the record of its mapping is not a JSON object");
+  impl_->stated.mapping = text;
   return ok_status();
 }
 

@@ -153,5 +153,30 @@ TEST(AdjustPoses, FinalPosesDoNotHideTheMounting) {
   EXPECT_NEAR(poses[29].heading_rad / kRadPerDeg, street.poses[29].heading_rad / kRadPerDeg, 0.15);
 }
 
+// A frame whose record is wrong is told apart from the others.
+TEST(AdjustPoses, EachFrameTellsHowFarItsRecordIsOff) {
+  MadeUpStreet street({.frames = 40, .points = 400, .pixel_noise_px = 0.5});
+  std::vector<CameraPose> poses = street.recorded;
+  poses[25].enu_m.z() += 0.3;
+  const auto witness = adjust_poses(poses, 10, street.sights_of_all(), kStreetPinhole, {});
+  ASSERT_EQ(witness.size(), 30U);
+  for (std::size_t i = 0; i < witness.size(); ++i) {
+    EXPECT_EQ(witness[i].frames, 1U);
+    if (i == 15) {
+      EXPECT_GT(witness[i].up_rms_m(), 0.2);
+    } else {
+      EXPECT_LT(witness[i].up_rms_m(), 0.1) << i;
+    }
+  }
+  ImageWitness all;
+  for (const ImageWitness& each : witness) all += each;
+  EXPECT_EQ(all.frames, 30U);
+  EXPECT_GT(all.tracks, 100U);
+  EXPECT_GT(all.fitting_share(), 0.95);
+  // Noise of 0.5 px on two axes, of which the points' positions take some.
+  EXPECT_GT(all.reprojection_rms_px(), 0.3);
+  EXPECT_LT(all.reprojection_rms_px(), 0.9);
+}
+
 }  // namespace
 }  // namespace milepost

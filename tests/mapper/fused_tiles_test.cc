@@ -88,7 +88,7 @@ MadeLayer layer_of(double size_target_kb_per_m, const std::vector<double>& cuts_
     return ok_status();
   });
   EXPECT_TRUE(built.ok());
-  if (built) made.known = *built;
+  if (built) made.known = built->left;
   return made;
 }
 

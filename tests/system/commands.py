@@ -15,6 +15,7 @@ import unittest
 MAPPER = os.environ.get("MILEPOST_MAPPER", "")
 SERVER = os.environ.get("MILEPOST_SERVER", "")
 CLIENT = os.environ.get("MILEPOST_CLIENT", "")
+SIMULATOR = os.environ.get("MILEPOST_SIMULATOR", "")
 STREET = pathlib.Path(os.environ.get("MILEPOST_STREET", ""))  # holds street-map and street-query
 SHARED = pathlib.Path(os.environ.get("MILEPOST_SHARED", ""))  # recorded drives, if available
 

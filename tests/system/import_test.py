@@ -7,108 +7,16 @@ import struct
 import subprocess
 import unittest
 
-from commands import CLIENT, MAPPER, STREET, CommandTest, rows_of, run
-
-STREET_MAP = STREET / "street-map"
-EPOCH_S = 1_700_000_000  # added to the street's times where a layout has dates
-BETWEEN = 10             # poses from one frame to the next
+from commands import STREET, rows_of
+from recorded_street import EPOCH_S, RecordedStreet, converted
 
 
-def converted(points, *pipeline):
-    """Points through PROJ's own program."""
-    text = "".join("%.12f %.12f %.9f\n" % tuple(point) for point in points)
-    result = subprocess.run(["cct", "-d", "12", "+proj=pipeline", *pipeline], input=text, capture_output=True, text=True,
-                            check=True)
-    return [tuple(float(word) for word in line.split()[:3]) for line in result.stdout.splitlines()]
 
-
-def turned(from_deg, to_deg):
-    return (to_deg - from_deg + 180) % 360 - 180
-
-
-class Pose:
-    def __init__(self, time_s, enu_m, heading_deg):
-        self.time_s, self.enu_m, self.heading_deg = time_s, enu_m, heading_deg
-
-
-class Import(CommandTest):
-    def setUp(self):
-        super().setUp()
-        self.description = json.loads((STREET_MAP / "drive.json").read_text())
-        self.frames = STREET_MAP / self.description["images"]
-        self.rows = rows_of(STREET_MAP / "trajectory.csv")
-        at_frames = [Pose(float(row["timestamp_s"]) + EPOCH_S, [float(row[axis]) for axis in ("east_m", "north_m", "up_m")],
-                          float(row["heading_deg"])) for row in self.rows]
-        self.at_frames = at_frames
-        self.poses = []
-        for before, after in zip(at_frames, at_frames[1:]):
-            for step in range(BETWEEN):
-                part = step / BETWEEN
-                self.poses.append(Pose(before.time_s + part * (after.time_s - before.time_s),
-                                       [a + part * (b - a) for a, b in zip(before.enu_m, after.enu_m)],
-                                       before.heading_deg + part * turned(before.heading_deg, after.heading_deg)))
-        self.poses.append(at_frames[-1])
-        origin = self.description["origin"]
-        self.origin = (origin["latitude_deg"], origin["longitude_deg"], origin["altitude_m"])
-        self.geocentric_from_enu = ("+step", "+inv", "+proj=topocentric", "+ellps=WGS84", f"+lat_0={self.origin[0]}",
-                                    f"+lon_0={self.origin[1]}", f"+h_0={self.origin[2]}")
-        self.degrees_from_enu = (*self.geocentric_from_enu, "+step", "+inv", "+proj=cart", "+ellps=WGS84",
-                                 "+step", "+proj=unitconvert", "+xy_in=rad", "+xy_out=deg")
-        self.lon_lat_h = converted([pose.enu_m for pose in self.poses], *self.degrees_from_enu)
-        self.camera = self.folder / "camera.json"
-        self.camera.write_text(json.dumps({"camera": self.description["camera"]}))
-        self.times = self.folder / "times.csv"
-        self.times.write_text("filename,timestamp_s\n" + "".join(
-            f"{row['filename']},{pose.time_s:.6f}\n" for row, pose in zip(self.rows, at_frames)))
-        self.drive = self.folder / "imported"
-
-    def run_import(self, layout, *words):
-        return run(MAPPER, "import", layout, "--drive", self.drive, *words)
-
-    def with_images(self, trajectory):
-        return ("--trajectory", trajectory, "--images", self.frames, "--times", self.times, "--camera", self.camera)
-
-    def table(self, header, rows, name="trajectory.csv", separator=","):
-        file = self.folder / name
-        file.write_text("".join(separator.join(map(str, row)) + "\n" for row in (header, *rows)))
-        return file
-
-    def expect_frames(self, within_m=0.002, within_deg=0.01, after_s=0.0):
-        """The drive has the street's frames where and when they were."""
-        expected = converted([pose.enu_m for pose in self.at_frames], *self.degrees_from_enu)
-        rows = rows_of(self.drive / "trajectory.csv")
-        self.assertEqual([row["filename"] for row in rows], [row["filename"] for row in self.rows])
-        for row, pose, (longitude, latitude, height) in zip(rows, self.at_frames, expected):
-            self.assertAlmostEqual(float(row["timestamp_s"]) - after_s, pose.time_s, delta=1e-4)
-            north_m = (float(row["latitude_deg"]) - latitude) * 111_200
-            east_m = (float(row["longitude_deg"]) - longitude) * 111_320 * math.cos(math.radians(latitude))
-            self.assertLess(math.hypot(east_m, north_m, float(row["altitude_m"]) - height), within_m, row)
-            self.assertLess(abs(turned(float(row["heading_deg"]), pose.heading_deg)), within_deg, row)
-            frame = self.drive / "frames" / row["filename"]
-            self.assertTrue(frame.is_symlink())
-            self.assertEqual(frame.resolve(), (self.frames / row["filename"]).resolve())
-
-    def expect_imported(self, result):
-        self.expect_done(result)
-        self.assertEqual(result.stderr, "")
-        self.assertRegex(result.stdout, rf"imported: {len(self.rows)} frames in \d+\.\d s\n$")
-
-    def degrees_table(self, **words):
-        return self.table(("time", "latitude", "longitude", "height", "heading"),
-                          [(f"{pose.time_s:.6f}", f"{latitude:.11f}", f"{longitude:.11f}", f"{height:.5f}",
-                            f"{pose.heading_deg:.5f}")
-                           for pose, (longitude, latitude, height) in zip(self.poses, self.lon_lat_h)], **words)
-
+class Import(RecordedStreet):
     def test_a_table_is_mapped_and_localized_on(self):
         self.expect_imported(self.run_import("csv", *self.with_images(self.degrees_table())))
         self.expect_frames()
-        file, out = self.folder / "street.map", self.folder / "out"
-        self.expect_done(self.build(self.drive, file))
-        self.expect_done(run(CLIENT, "evaluate", "--map", file, "--drive", STREET / "street-query", "--out", out,
-                             "--method", "milepost"))
-        summary, = json.loads((out / "summary.json").read_text())
-        self.assertLess(summary["mean_error_m"], 0.010)
-        self.assertLess(summary["mean_lateral_error_m"], 0.010)
+        self.expect_localizes(0.010)
 
     def test_a_table_as_spreadsheets_write_it(self):
         rows = [(f"{pose.time_s:.6f}".replace(".", ","), f'"{latitude:.11f}"'.replace(".", ","),
@@ -160,6 +68,7 @@ class Import(CommandTest):
         file.write_bytes(b"".join(records))
         self.expect_imported(self.run_import("sbet", *self.with_images(file), "--day-s", day_s))
         self.expect_frames()
+        self.expect_localizes(0.2)  # the tilts that it states are wrong
         row = rows_of(self.drive / "trajectory.csv")[3]
         self.assertAlmostEqual(float(row["roll_deg"]), 1, places=5)
         self.assertAlmostEqual(float(row["pitch_deg"]), 2, places=5)
@@ -182,11 +91,13 @@ class Import(CommandTest):
         self.expect_done(result)
         self.expect_frames(within_m=0.01, within_deg=4)
         self.assertTrue((self.drive / "gps.csv").exists())
+        self.expect_localizes(0.03)
 
     def test_nmea(self):
         result = self.run_import("nmea", *self.with_images(self.by_gpsbabel("nmea", "track.nmea")))
         self.expect_done(result)
         self.expect_frames(within_m=2, within_deg=180)  # it writes three decimals of a minute: 1.9 m
+        self.expect_localizes(2.5)
 
     def rotation(self, heading_deg):
         """East, north, up from a level camera's right, down, forward."""
@@ -209,6 +120,7 @@ class Import(CommandTest):
         self.times = named
         self.expect_imported(self.run_import("tum", *self.with_images(file), "--origin", ",".join(map(str, self.origin))))
         self.expect_frames()
+        self.expect_localizes(0.010)
         self.drive = self.folder / "lost"
         self.expect_refused(self.run_import("tum", *self.with_images(file)), 1, "--origin")
 
@@ -237,6 +149,7 @@ class Import(CommandTest):
         self.expect_frames()
         camera = json.loads((self.drive / "drive.json").read_text())["camera"]
         self.assertEqual(camera, self.description["camera"])
+        self.expect_localizes(0.010)
 
     def test_kitti_raw(self):
         folder = self.folder / "2023_11_14" / "2023_11_14_drive_0001_sync"
@@ -262,6 +175,12 @@ class Import(CommandTest):
         mounting = json.loads((self.drive / "drive.json").read_text())["mounting"]
         for key, value in {"forward_m": 1.07, "right_m": 0.3, "up_m": 0.72, "yaw_deg": 0}.items():
             self.assertAlmostEqual(mounting[key], value, places=6, msg=key)
+        # The street's positions are the camera's: with another calibration they are.
+        (calibration / "calib_imu_to_velo.txt").write_text("R: 1 0 0 0 1 0 0 0 1\nT: 0 0 0\n")
+        (calibration / "calib_velo_to_cam.txt").write_text("R: 0 -1 0 0 0 -1 1 0 0\nT: 0 0 0\n")
+        self.drive = self.folder / "at-the-camera"
+        self.expect_done(self.run_import("kitti-raw", "--folder", folder))
+        self.expect_localizes(0.010)
 
     def test_images_stamped_with_whole_seconds(self):
         self.times = self.folder / "seconds.csv"

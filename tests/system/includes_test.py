@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "schema/command/": [BASE, COMMAND],
     "schema/geo/": [BASE, "schema/geo/"],
     "schema/document/": [BASE, "schema/document/"],
-    "schema/store/": [BASE, "schema/document/", "schema/store/"],
+    "schema/store/": [BASE, "schema/document/", "schema/geo/datum.h", "schema/store/"],
     "schema/tile/": [BASE, "schema/geo/geodesy.h", "schema/tile/", *FEATURE_TYPES],
     "schema/feature/types": [BASE, *FEATURE_TYPES],
     "schema/feature/": [BASE, "schema/geo/", "schema/feature/"],

@@ -138,6 +138,18 @@ TEST(DriveFindings, HeadingsThatPointElsewhere) {
               ElementsAre("mirrored_axis"));
 }
 
+TEST(DriveFindings, AVehicleThatIsRolled) {
+  const auto rolled = [](double roll_deg) {
+    Drive drive = changed([&](Frame& frame, std::mt19937&) { frame.roll_deg = roll_deg; });
+    return kinds_of(drive);
+  };
+  EXPECT_THAT(rolled(-11.8), ElementsAre("tilted"));
+  EXPECT_THAT(rolled(4), IsEmpty());
+  Drive mounted = changed([](Frame& frame, std::mt19937&) { frame.roll_deg = 30; });
+  mounted.camera.mounting.roll_deg = 30;
+  EXPECT_THAT(kinds_of(mounted), IsEmpty());
+}
+
 TEST(DriveFindings, AxesThatAreExchanged) {
   EXPECT_THAT(kinds_of(replaced([](const EnuPoint& at) {
                 return EnuPoint{at.north_m, at.east_m, at.up_m};

@@ -105,5 +105,17 @@ TEST(Verification, TilesThatAreOthers) {
                           Is("tile", "tile 3: holds a landmark beyond its range")));
 }
 
+TEST(Verification, ARecordOfTheMappingThatCannotBeRead) {
+  const auto with = [](const std::string& record) {
+    return found_in([&](MapWriter& map) {
+      EXPECT_TRUE(map.add_segment(segment("a", 0, {{"x", "neighbour"}})).ok());
+      EXPECT_TRUE(map.set_mapping_document(record).ok());
+    });
+  };
+  EXPECT_THAT(with(R"({"drives":[],"findings":[],"segments":[]})"), IsEmpty());
+  EXPECT_THAT(with(R"({"drives":7})"),
+              ElementsAre(Is("malformed_record", "the record of its mapping")));
+}
+
 }  // namespace
 }  // namespace milepost

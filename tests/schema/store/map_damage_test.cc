@@ -222,7 +222,7 @@ TEST_P(MapChange, IsCaughtByVerify) {
 const char* const kOtherBuild = "town.map: the content has the build ";
 const char* const kOtherManifest = "town.map: the manifest is not that of build ";
 const char* const kOtherSummary =
-    "town.map: its layers, parameters, bounds or lengths are not those of build ";
+    "town.map: its layers, parameters, bounds, datum or lengths are not those of build ";
 
 const std::vector<Change> kChanges = {
     {"Feature", "UPDATE meta SET value = '{}' WHERE key = 'feature'", kOtherSummary},

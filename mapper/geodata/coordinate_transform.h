@@ -9,7 +9,8 @@
 
 namespace milepost {
 
-// From a reference system to WGS84 with ellipsoidal heights. Not safe to use from several threads.
+// From a reference system to degrees and heights above the ellipsoid: of the same datum, or of
+// WGS 84 where that has another ellipsoid. Not safe to use from several threads.
 class CoordinateTransform {
  public:
   // `crs` is what PROJ understands: "EPSG:25832", "EPSG:4978" (geocentric), "EPSG:25832+7837" (with
@@ -19,9 +20,14 @@ class CoordinateTransform {
   CoordinateTransform(CoordinateTransform&&) noexcept;
   CoordinateTransform& operator=(CoordinateTransform&&) noexcept;
 
+  // The name of the datum, as Datum has it: "ETRS89".
+  const std::string& datum() const;
+
+  bool is_geocentric() const;  // X, Y and Z
+
   // Easting, northing and height; longitude, latitude and height; or X, Y and Z. Errors:
   // invalid_input.
-  Result<GeoPoint> wgs84_of(double x, double y, double z) const;
+  Result<GeoPoint> geographic_of(double x, double y, double z) const;
 
  private:
   struct Impl;
