@@ -6,7 +6,8 @@
 --part LOW HIGH    of the frames only the part between these shares, 0 to 1
 --spoil KIND       other images: blur, soft, noise, half (the resolution), dark
 --record KIND      poses recorded worse: heading (noise of 5 degrees), altitude (1 m), position (0.3 m on each axis),
-                   decimals (five of a degree), fifth (only every fifth frame)
+                   decimals (five of a degree), fifth (only every fifth frame); or wrong: clock (each frame has the pose of
+                   the third after it), exchanged (east and north), rear (headings against the direction of travel)
 --leap-m M         after a third of the frames so many metres are left out and the times closed up, so that whoever
                    follows is pushed away by as much; the receiver is told at the beginning only
 --onto DRIVE       positions and receiver lie on the road of another drive, which the images do not show
@@ -228,6 +229,35 @@ RECORDS = {"heading": lambda drive: with_noise(drive, {"heading_deg": 5}),
            "fifth": lambda drive: dataclasses.replace(drive, trajectory=drive.trajectory[::5])}
 
 
+def exchanged(drive):
+    """East and north, or latitude and longitude as far as they change."""
+    if drive.description["frame"] == "local":
+        return dataclasses.replace(drive, trajectory=[{**row, "east_m": row["north_m"], "north_m": row["east_m"]}
+                                                      for row in drive.trajectory])
+    first = {name: float(drive.trajectory[0][name]) for name in ("latitude_deg", "longitude_deg")}
+    shrink = math.cos(math.radians(first["latitude_deg"]))
+    return dataclasses.replace(drive, trajectory=[
+        {**row, "latitude_deg": f"{first['latitude_deg'] + (float(row['longitude_deg']) - first['longitude_deg']) * shrink:.11f}",
+         "longitude_deg": f"{first['longitude_deg'] + (float(row['latitude_deg']) - first['latitude_deg']) / shrink:.11f}"}
+        for row in drive.trajectory])
+
+
+def late(drive, frames=3):
+    """Each frame has the pose of one that was taken later."""
+    rows = drive.trajectory
+    return dataclasses.replace(drive, trajectory=[{**later, "filename": row["filename"], "timestamp_s": row["timestamp_s"]}
+                                                  for row, later in zip(rows, rows[frames:])])
+
+
+def looking_back(drive):
+    return dataclasses.replace(drive, trajectory=[{**row, "heading_deg": f"{(float(row['heading_deg']) + 180) % 360:.6f}"}
+                                                  for row in drive.trajectory])
+
+
+# Not only worse but wrong.
+FAULTS = {**RECORDS, "clock": late, "exchanged": exchanged, "rear": looking_back}
+
+
 def motion_blurred(image):
     """As of a camera that moved to the side, 4 px."""
     import numpy as np
@@ -281,7 +311,7 @@ def main():
     parser.add_argument("--yaw-deg", type=float, default=0)
     parser.add_argument("--part", type=float, nargs=2)
     parser.add_argument("--spoil", choices=SPOILS)
-    parser.add_argument("--record", choices=RECORDS)
+    parser.add_argument("--record", choices=FAULTS)
     parser.add_argument("--leap-m", type=float)
     parser.add_argument("--onto", type=pathlib.Path)
     options = parser.parse_args()
@@ -289,7 +319,7 @@ def main():
     if options.part:
         drive = part_of(drive, *options.part)
     if options.record:
-        drive = RECORDS[options.record](drive)
+        drive = FAULTS[options.record](drive)
     if options.leap_m:
         drive = leaping(drive, options.leap_m)
     if options.onto:
