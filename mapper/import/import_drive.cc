@@ -79,6 +79,17 @@ Result<Camera> camera_of(const Recording& recording, const DriveSettings& settin
   return *camera;
 }
 
+// The position of the trajectory, with its angles or those of the orientations. Nothing where
+// either has none.
+std::optional<GeoAttitude> pose_at(double timestamp_s, const Trajectory& trajectory,
+                                   const std::optional<Trajectory>& orientations) {
+  const auto pose = trajectory.at(timestamp_s);
+  if (!pose || !orientations) return pose;
+  auto oriented = orientations->at(timestamp_s);
+  if (oriented) oriented->position = pose->position;
+  return oriented;
+}
+
 std::string note_of(const TrajectoryGap& gap) {
   return "no pose between " + fixed(gap.from_s, 3) + " and " + fixed(gap.to_s, 3) + " s, " +
          fixed(gap.to_s - gap.from_s, 1) + " s long";
@@ -124,11 +135,15 @@ Result<ImportReport> import_drive(Recording recording, const DriveSettings& sett
     return Error{ErrorCode::invalid_input, "the trajectory",
                  "has " + std::to_string(count) + " poses, not two or more", "name another file"};
   };
-  for (RecordedPose& pose : recording.poses) pose.timestamp_s += settings.day_s;
+  for (auto* const poses : {&recording.poses, &recording.orientations})
+    for (RecordedPose& pose : *poses) pose.timestamp_s += settings.day_s;
   if (recording.poses.size() < 2) return no_poses(recording.poses.size());
   Trajectory trajectory(std::move(recording.poses), settings.max_gap_s);
   if (trajectory.poses().size() < 2) return no_poses(trajectory.poses().size());
   if (!recording.has_headings) trajectory.set_headings_by_motion();
+  std::optional<Trajectory> orientations;
+  if (!recording.orientations.empty())
+    orientations.emplace(std::move(recording.orientations), settings.max_gap_s);
   if (settings.spread_seconds) spread_whole_seconds(recording.images);
   for (RecordedImage& image : recording.images) image.timestamp_s += settings.time_offset_s;
   std::ranges::stable_sort(recording.images, {}, &RecordedImage::timestamp_s);
@@ -143,7 +158,7 @@ Result<ImportReport> import_drive(Recording recording, const DriveSettings& sett
   if (!camera) return camera.error();
   drive.camera = *camera;
   for (const RecordedImage& image : recording.images) {
-    const auto vehicle = trajectory.at(image.timestamp_s);
+    const auto vehicle = pose_at(image.timestamp_s, trajectory, orientations);
     if (!vehicle) continue;
     const GeoAttitude at = camera_of_vehicle(*vehicle, drive.camera.mounting);
     drive.frames.push_back(

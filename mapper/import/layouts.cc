@@ -13,7 +13,9 @@ const std::vector<ImportLayout>& import_layouts() {
       {"gpx", {kTrajectory, kImages}, read_gpx},
       {"kitti-odometry", {kFolder, kTrajectory}, read_kitti_odometry},
       {"kitti-raw", {kFolder}, read_kitti_raw},
-      {"tum", {kTrajectory, kImages}, read_tum}};
+      {"tum", {kTrajectory, kImages}, read_tum},
+      {"ros1", {kTrajectory}, read_ros1},
+      {"ros2", {kTrajectory}, read_ros2}};
   return kLayouts;
 }
 
