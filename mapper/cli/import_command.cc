@@ -111,7 +111,7 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
                "Images are stamped with whole seconds: spread those of each second evenly");
   app.add_option("--receiver-sigma-m", command.settings.receiver_sigma_m,
                  "Write gps.csv, too, for drives to localize: the trajectory's positions, one a "
-                 "second, with this standard deviation (0.01 to 1000; nmea and gpx: default 5)")
+                 "second, with this standard deviation (0.01 to 1000; default 5 for a receiver's)")
       ->check(CLI::Range(0.01, 1000.0))
       ->option_text("M");
   app.add_option("--name", command.settings.name, "Name of the drive (default: of its folder)")

@@ -65,8 +65,11 @@ Status Ros2Bag::add(const fs::path& file) {
   if (!database) return database.error();
   const auto tables = database->integer(
       "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('topics', 'messages')");
-  if (!tables)
-    return not_read(file, "is no bag in SQLite", "name a .db3 file of ROS 2, or its folder");
+  if (!tables) {
+    return Error{tables.error().code, file.string(),
+                 "is no bag in SQLite, or damaged (" + tables.error().what + ")",
+                 "name a .db3 file of ROS 2, or copy it again"};
+  }
   if (*tables != 2) return not_read(file, "is no bag of ROS 2", "name a .db3 file, or its folder");
   Part part{file, std::move(*database), {}, {}};
   if (const Status read = read_topics(part); !read) return read;
