@@ -30,6 +30,7 @@ std::vector<std::size_t> of_types(const Topics& topics, const Types& types) {
 
 std::string listed(const Topics& topics, const std::vector<std::size_t>& these) {
   std::vector<std::string> names;
+  names.reserve(these.size());
   for (const std::size_t i : these) names.push_back(topics[i].name + " (" + topics[i].type + ")");
   return joined(names, ", ");
 }
