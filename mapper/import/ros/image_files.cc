@@ -77,8 +77,9 @@ Result<Bytes> png_of(const Image& image) {
                 row_bytes);
   constexpr bool kIsBigEndian = std::endian::native == std::endian::big;
   if (pixels.depth() == CV_16U && image.is_big_endian != kIsBigEndian) {
-    for (auto at = pixels.begin<std::uint16_t>(); at != pixels.end<std::uint16_t>(); ++at)
-      *at = static_cast<std::uint16_t>(*at << 8U | *at >> 8U);
+    pixels.forEach<std::uint16_t>([](std::uint16_t& value, const int*) {
+      value = static_cast<std::uint16_t>(value << 8U | value >> 8U);
+    });
   }
   // Smaller ones have no pattern to take the colours from.
   const bool is_bayer = encoding.conversion != kAsItIs && pixels.channels() == 1;
