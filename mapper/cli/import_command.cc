@@ -28,12 +28,23 @@ after. Images are referred to, not copied. Layouts:
   tum             camera poses as that benchmark writes them
   colmap          a model, text or binary, aligned to the Earth
   exif            images that tell their times and places themselves
+  ros1            a .bag file: images, with NavSatFix, Odometry or both, Imu, CameraInfo
+  ros2            the same in a .db3 file or the folder of a recording
 
 --images is a folder, or a video with the layouts of a trajectory. Times of images (--times): a table with filename,timestamp_s; lines of time and name; or a time a
 line in the order of the names, in seconds or as 2011-09-30T12:40:59.123. Without it names that are
 numbers are times.
+
+A bag (--trajectory) has its images in it, which are written out: raw ones as PNG, compressed ones as
+they are. Positions are those of a receiver (NavSatFix); without one Odometry's, in a frame that
+--origin places. Orientations (Odometry, Imu) are those of a body with x forward and z upwards, its
+yaw from east, counterclockwise; without them headings are told by the motion. Times are the
+headers'. Of several topics of a kind --topics chooses one; orientation=none takes none.
+
 Example: milepost-mapper import sbet --trajectory sbet.out --images cam --times cam.csv \
-           --camera camera.json --mounting 1.2 0 0.4 0 0 0 --drive drives/monday)";
+           --camera camera.json --mounting 1.2 0 0.4 0 0 0 --drive drives/monday
+         milepost-mapper import ros1 --trajectory monday.bag --topics image=/left/image_raw \
+           --drive drives/monday)";
 
 struct ImportCommand {
   std::string layout;
@@ -59,7 +70,8 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
   ImportOptions& options = command.options;
   app.add_option("--folder", options.folder, "Folder of a KITTI sequence or drive, or of a model")
       ->option_text("DIR");
-  app.add_option("--trajectory", options.trajectory, "File of the poses or positions")
+  app.add_option("--trajectory", options.trajectory,
+                 "File of the poses or positions; the bag, or its folder")
       ->option_text("FILE");
   app.add_option("--images", options.images, "Folder of the images, or a video")
       ->option_text("DIR");
@@ -80,6 +92,10 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
                  "csv: names of the columns, WHAT=NAME; WHAT is time, latitude, longitude, height, "
                  "x, y, z, heading, pitch, roll or image (default: so named)")
       ->option_text("WHAT=NAME...");
+  app.add_option("--topics", options.topics,
+                 "ros1, ros2: topics to read, WHAT=NAME; WHAT is image, camera_info, position or "
+                 "orientation (default: the only one of its kind)")
+      ->option_text("WHAT=NAME...");
   app.add_option(
          "--crs", options.crs,
          "Reference system of csv's x, y, z, or of a model: EPSG:25832, EPSG:4978 (geocentric)")
@@ -96,7 +112,8 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
   app.add_option("--to-datum", command.to_datum, "Transform the positions to this datum")
       ->option_text("NAME[@YEAR]");
   add_number(app, "--origin-heading-deg", options.origin_heading_deg, "DEG",
-             "Heading of the local frame: of KITTI's first camera, of TUM's y axis", -360, 360);
+             "Heading of the local frame: of KITTI's first camera, of TUM's or Odometry's y axis",
+             -360, 360);
   add_number(app, "--day-s", command.settings.day_s, "S",
              "Added to the trajectory's times: the begin of its day or week", -1e10, 1e10);
   add_number(app, "--time-offset-s", command.settings.time_offset_s, "S",
@@ -117,7 +134,7 @@ void add_import_options(CLI::App& app, ImportCommand& command) {
                "Images are stamped with whole seconds: spread those of each second evenly");
   app.add_option("--receiver-sigma-m", command.settings.receiver_sigma_m,
                  "Write gps.csv, too, for drives to localize: the trajectory's positions, one a "
-                 "second, with this standard deviation (0.01 to 1000; nmea and gpx: default 5)")
+                 "second, with this standard deviation (0.01 to 1000; default 5 for a receiver's)")
       ->check(CLI::Range(0.01, 1000.0))
       ->option_text("M");
   app.add_option("--name", command.settings.name, "Name of the drive (default: of its folder)")
@@ -161,6 +178,7 @@ int import(const std::string& program, ImportCommand command) {
     const Result<Camera> camera = read_camera(command.camera);
     if (!camera) return fail(program, camera.error());
     settings.camera = *camera;
+    command.options.has_camera = true;
   }
   for (const auto& [text, option, datum] :
        {std::tuple{&command.datum, "--datum", &settings.datum},

@@ -104,8 +104,8 @@ bool has_turns(const Trajectory& trajectory) {
 }  // namespace
 
 Result<ClockOffset> estimate_clock_offset(const std::vector<RecordedImage>& images,
-                                          const Trajectory& trajectory, const Camera& camera,
-                                          double range_s) {
+                                          const Trajectory& positions, const Trajectory& headings,
+                                          const Camera& camera, double range_s) {
   constexpr std::size_t kFewest = 30;
   constexpr double kAgrees = 0.7;
   constexpr double kBetter = 0.75;  // of what another place leaves unexplained
@@ -123,8 +123,8 @@ Result<ClockOffset> estimate_clock_offset(const std::vector<RecordedImage>& imag
   const double interval_s = median_of(intervals_s);
   if (!(interval_s > 0)) return unknown("needs images with times of their own");
 
-  const Signal signal = has_turns(trajectory) ? Signal::turns : Signal::speeds;
-  const Comparison comparison(*steps, trajectory, signal);
+  const Signal signal = has_turns(headings) ? Signal::turns : Signal::speeds;
+  const Comparison comparison(*steps, signal == Signal::turns ? headings : positions, signal);
   struct Tried {
     double offset_s = 0;
     double correlation = 0;

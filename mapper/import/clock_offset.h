@@ -16,11 +16,12 @@ struct ClockOffset {
   bool by_turns = true;    // false: by stops and starts, of a drive that hardly turns
 };
 
-// Compares how far images turn from one to the next with how far the trajectory does, for offsets
-// from -range_s to range_s. REQUIRES: images are files, in the order of their times. Errors:
-// invalid_input, if the motion does not tell the offset; those of reading an image.
+// Compares how far images turn from one to the next with how far the vehicle did, for offsets
+// from -range_s to range_s. `headings` may be recorded apart from the positions. REQUIRES: images
+// are files, in the order of their times. Errors: invalid_input, if the motion does not tell the
+// offset; those of reading an image.
 Result<ClockOffset> estimate_clock_offset(const std::vector<RecordedImage>& images,
-                                          const Trajectory& trajectory, const Camera& camera,
-                                          double range_s);
+                                          const Trajectory& positions, const Trajectory& headings,
+                                          const Camera& camera, double range_s);
 
 }  // namespace milepost

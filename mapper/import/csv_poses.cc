@@ -1,9 +1,9 @@
-#include <algorithm>
 #include <map>
 
 #include "mapper/geodata/coordinate_transform.h"
 #include "mapper/import/image_times.h"
 #include "mapper/import/layouts.h"
+#include "mapper/import/what_names.h"
 #include "schema/base/csv.h"
 
 namespace milepost {
@@ -13,27 +13,10 @@ namespace {
 const std::vector<std::string> kWhats = {"time", "latitude", "longitude", "height", "x",    "y",
                                          "z",    "heading",  "pitch",     "roll",   "image"};
 
-// The names of the columns by what they hold. Errors: invalid_input.
-Result<std::map<std::string, std::string>> named_columns(const ImportOptions& options) {
-  std::map<std::string, std::string> names;
-  for (const std::string& column : options.columns) {
-    const std::size_t equals = column.find('=');
-    const std::string what = column.substr(0, equals);
-    if (equals == std::string::npos || std::ranges::find(kWhats, what) == kWhats.end()) {
-      std::string all;
-      for (const std::string& each : kWhats) all += (all.empty() ? "" : ", ") + each;
-      return Error{ErrorCode::invalid_input, "--columns", "'" + column + "' is not WHAT=NAME",
-                   "WHAT is one of " + all};
-    }
-    names[what] = column.substr(equals + 1);
-  }
-  return names;
-}
-
 class PoseTable {
  public:
   static Result<PoseTable> read(const ImportOptions& options) {
-    auto names = named_columns(options);
+    auto names = names_by_what("--columns", options.columns, kWhats);
     if (!names) return names.error();
     for (const std::string& what : kWhats) names->try_emplace(what, what);
     std::vector<std::string> wanted;

@@ -51,6 +51,22 @@ Result<Camera> camera_of(const Recording& recording, const DriveSettings& settin
   return *camera;
 }
 
+// Where the vehicle was, and how it was turned, which may be recorded apart.
+struct Way {
+  Trajectory positions;
+  std::optional<Trajectory> orientations;
+
+  const Trajectory& headings() const { return orientations ? *orientations : positions; }
+  // Nothing where either has none.
+  std::optional<GeoAttitude> at(double timestamp_s) const {
+    const auto pose = positions.at(timestamp_s);
+    if (!pose || !orientations) return pose;
+    auto oriented = orientations->at(timestamp_s);
+    if (oriented) oriented->position = pose->position;
+    return oriented;
+  }
+};
+
 std::string note_of(const TrajectoryGap& gap) {
   return "no pose between " + fixed(gap.from_s, 3) + " and " + fixed(gap.to_s, 3) + " s, " +
          fixed(gap.to_s - gap.from_s, 1) + " s long";
@@ -95,13 +111,17 @@ Status check_not_empty(const Recording& recording) {
   return ok_status();
 }
 
-Result<Trajectory> trajectory_of(Recording& recording, const DriveSettings& settings) {
-  for (RecordedPose& pose : recording.poses) pose.timestamp_s += settings.day_s;
+Result<Way> way_of(Recording& recording, const DriveSettings& settings) {
+  for (auto* const poses : {&recording.poses, &recording.orientations}) {
+    for (RecordedPose& pose : *poses) pose.timestamp_s += settings.day_s;
+  }
   const std::size_t recorded = recording.poses.size();
   if (recorded > 0) {
-    Trajectory trajectory(std::move(recording.poses), settings.max_gap_s);
-    if (!recording.has_headings) trajectory.set_headings_by_motion();
-    if (trajectory.poses().size() > 1) return trajectory;
+    Way way{Trajectory(std::move(recording.poses), settings.max_gap_s), {}};
+    if (!recording.has_headings) way.positions.set_headings_by_motion();
+    if (!recording.orientations.empty())
+      way.orientations.emplace(std::move(recording.orientations), settings.max_gap_s);
+    if (way.positions.poses().size() > 1) return way;
   }
   return Error{
       ErrorCode::invalid_input, "the trajectory",
@@ -111,7 +131,7 @@ Result<Trajectory> trajectory_of(Recording& recording, const DriveSettings& sett
 
 // Moves the images' times to the trajectory's clock. Errors: those of estimate_clock_offset and
 // extract_images.
-Status correct_clock(Recording& recording, const Trajectory& trajectory, const Camera& camera,
+Status correct_clock(Recording& recording, const Way& way, const Camera& camera,
                      const DriveSettings& settings, std::vector<std::string>& notes) {
   if (settings.spread_seconds) spread_whole_seconds(recording.images);
   const auto move_by = [&](double offset_s) {
@@ -124,8 +144,8 @@ Status correct_clock(Recording& recording, const Trajectory& trajectory, const C
     const Status extracted = extract_images(recording, settings.folder / kExtracted);
     if (!extracted) return extracted;
   }
-  const auto found =
-      estimate_clock_offset(recording.images, trajectory, camera, *settings.estimate_offset_s);
+  const auto found = estimate_clock_offset(recording.images, way.positions, way.headings(), camera,
+                                           *settings.estimate_offset_s);
   if (!found) return found.error();
   move_by(found->offset_s);
   notes.push_back("the images' times are moved by " + fixed(found->offset_s, 2) +
@@ -140,12 +160,11 @@ struct PosedImages {
   Drive drive;
   std::vector<RecordedImage> images;
 };
-Result<PosedImages> posed_images(const Recording& recording, const Trajectory& trajectory,
-                                 const Camera& camera) {
+Result<PosedImages> posed_images(const Recording& recording, const Way& way, const Camera& camera) {
   PosedImages posed;
   posed.drive.camera = camera;
   for (const RecordedImage& image : recording.images) {
-    const auto there = trajectory.at(image.timestamp_s);
+    const auto there = way.at(image.timestamp_s);
     if (!there) continue;
     const GeoAttitude at =
         recording.are_cameras ? *there : camera_of_vehicle(*there, camera.mounting);
@@ -155,8 +174,8 @@ Result<PosedImages> posed_images(const Recording& recording, const Trajectory& t
   }
   if (!posed.images.empty()) return posed;
   return Error{ErrorCode::invalid_input, "the trajectory",
-               "lasts from " + fixed(trajectory.begin_s(), 3) + " to " +
-                   fixed(trajectory.end_s(), 3) + " s, the images from " +
+               "lasts from " + fixed(way.positions.begin_s(), 3) + " to " +
+                   fixed(way.positions.end_s(), 3) + " s, the images from " +
                    fixed(recording.images.front().timestamp_s, 3) + " to " +
                    fixed(recording.images.back().timestamp_s, 3) + " s: no image has a pose",
                "give the offset of their clocks with --time-offset-s"};
@@ -183,15 +202,15 @@ Result<Drive> write_with_images(const PosedImages& posed, const Recording& recor
 Result<ImportReport> import_into(Recording& recording, const DriveSettings& settings) {
   const Result<Datum> datum = to_asked_datum(recording, settings);
   if (!datum) return datum.error();
-  auto trajectory = trajectory_of(recording, settings);
-  if (!trajectory) return trajectory.error();
+  const auto way = way_of(recording, settings);
+  if (!way) return way.error();
   if (const Status there = check_not_empty(recording); !there) return there.error();
   const auto camera = camera_of(recording, settings);
   if (!camera) return camera.error();
   ImportReport report;
-  const Status corrected = correct_clock(recording, *trajectory, *camera, settings, report.notes);
+  const Status corrected = correct_clock(recording, *way, *camera, settings, report.notes);
   if (!corrected) return corrected.error();
-  auto posed = posed_images(recording, *trajectory, *camera);
+  auto posed = posed_images(recording, *way, *camera);
   if (!posed) return posed.error();
   const std::vector<std::string> names = frame_names(posed->images);
   for (std::size_t i = 0; i < names.size(); ++i) posed->drive.frames[i].filename = names[i];
@@ -200,7 +219,7 @@ Result<ImportReport> import_into(Recording& recording, const DriveSettings& sett
                            std::to_string(recording.images.size()) +
                            " images have no pose and are left out");
   }
-  for (const TrajectoryGap& gap : trajectory->gaps()) report.notes.push_back(note_of(gap));
+  for (const TrajectoryGap& gap : way->positions.gaps()) report.notes.push_back(note_of(gap));
 
   Drive& drive = posed->drive;
   drive.name = settings.name;
@@ -211,7 +230,7 @@ Result<ImportReport> import_into(Recording& recording, const DriveSettings& sett
   drive.has_tilts = recording.has_tilts;
   std::optional<double> sigma_m = settings.receiver_sigma_m;
   if (!sigma_m && recording.is_receivers) sigma_m = 5;
-  if (sigma_m) drive.gps = receiver_of(*trajectory, *sigma_m);
+  if (sigma_m) drive.gps = receiver_of(way->positions, *sigma_m);
   Result<Drive> written = write_with_images(*posed, recording, settings);
   if (!written) return written.error();
   report.drive = std::move(*written);

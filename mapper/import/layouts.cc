@@ -15,7 +15,9 @@ const std::vector<ImportLayout>& import_layouts() {
       {"kitti-odometry", {kFolder, kTrajectory}, read_kitti_odometry},
       {"kitti-raw", {kFolder}, read_kitti_raw},
       {"colmap", {kFolder, kImages}, read_colmap},
-      {"tum", {kTrajectory, kImages}, read_tum}};
+      {"tum", {kTrajectory, kImages}, read_tum},
+      {"ros1", {kTrajectory}, read_ros1},
+      {"ros2", {kTrajectory}, read_ros2}};
   return kLayouts;
 }
 

@@ -35,5 +35,8 @@ Result<Recording> read_kitti_raw(const ImportOptions& options);
 Result<Recording> read_colmap(const ImportOptions& options);
 // Camera poses as TUM's RGB-D benchmark writes them.
 Result<Recording> read_tum(const ImportOptions& options);
+// A bag of ROS 1 or 2: images, a receiver's positions or odometry, orientations, the camera.
+Result<Recording> read_ros1(const ImportOptions& options);
+Result<Recording> read_ros2(const ImportOptions& options);
 
 }  // namespace milepost

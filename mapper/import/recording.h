@@ -43,9 +43,11 @@ class ImageContainer {
 
 struct Recording {
   std::vector<RecordedPose> poses;  // in any order, at their own rate
-  bool has_headings = true;         // false: to be told by the motion
-  bool has_tilts = false;           // pitch and roll are recorded
-  bool are_cameras = false;         // the poses are the camera's, whatever its mounting
+  // Angles at another rate than the positions', likewise; empty: the poses have them.
+  std::vector<RecordedPose> orientations;
+  bool has_headings = true;  // false: to be told by the motion
+  bool has_tilts = false;    // pitch and roll are recorded
+  bool are_cameras = false;  // the poses are the camera's, whatever its mounting
   std::vector<RecordedImage> images;
   std::shared_ptr<ImageContainer> container;  // null: each image is a file
   // With the mounting, if the layout tells them; without a size: that of the images' files.
@@ -65,6 +67,8 @@ struct ImportOptions {
   std::filesystem::path calibration;  // file
   std::string crs;                    // of coordinates that are not WGS84 degrees
   std::vector<std::string> columns;   // csv: what=NAME
+  std::vector<std::string> topics;    // of a bag: what=NAME
+  bool has_camera = false;            // the user tells the camera: the recording's is not used
   std::optional<GeoPoint> origin;     // of a local frame
   double origin_heading_deg = 0;      // of its forward axis
 };
