@@ -308,7 +308,9 @@ PoseBelief LandmarkTracker::predicted_to(double timestamp_s) const {
           ? (line().point_at(reach.to_m).altitude_m - line().point_at(reach.from_m).altitude_m) /
                 (reach.to_m - reach.from_m)
           : 0;
-  return predict(belief_, std::max(0.0, timestamp_s - timestamp_s_), slope, method().motion);
+  const Mounting& mounting = search_->camera.mounting;
+  return predict(belief_, std::max(0.0, timestamp_s - timestamp_s_), slope, method().motion,
+                 {mounting.forward_m, mounting.right_m});
 }
 
 GeoPoint LandmarkTracker::position_of(const PoseBelief& belief) const {

@@ -27,10 +27,22 @@ StateMatrix process_noise(double t, const Eigen::Vector2d& ahead,
   return Q;
 }
 
+// The lever arm of a vehicle that heads there, east and north; and its derivative.
+Eigen::Vector2d turned(const LeverArm& lever, double heading_rad) {
+  const double s = std::sin(heading_rad);
+  const double c = std::cos(heading_rad);
+  return {lever.forward_m * s + lever.right_m * c, lever.forward_m * c - lever.right_m * s};
+}
+
+Eigen::Vector2d turned_by_heading(const LeverArm& lever, double heading_rad) {
+  const Eigen::Vector2d arm = turned(lever, heading_rad);
+  return {arm.y(), -arm.x()};
+}
+
 }  // namespace
 
 PoseBelief predict(const PoseBelief& belief, double elapsed_s, double slope,
-                   const PoseMotionSettings& settings) {
+                   const PoseMotionSettings& settings, const LeverArm& lever) {
   const double t = elapsed_s;
   const StateVector& x = belief.x;
   const double speed = x[kSpeed];
@@ -43,6 +55,9 @@ PoseBelief predict(const PoseBelief& belief, double elapsed_s, double slope,
   next.x[kNorth] += speed * t * c;
   next.x[kUp] += speed * t * slope;
   next.x[kHeading] += x[kYawRate] * t;
+  const double headed_rad = x[kHeading] - x[kMounting];
+  const double heads_rad = headed_rad + x[kYawRate] * t;
+  next.x.segment<2>(kEast) += turned(lever, heads_rad) - turned(lever, headed_rad);
 
   StateMatrix F = StateMatrix::Identity();  // Jacobian of the prediction
   F(kEast, kSpeed) = t * s;
@@ -55,6 +70,11 @@ PoseBelief predict(const PoseBelief& belief, double elapsed_s, double slope,
   F(kEast, kYawRate) = speed * t * c * t / 2;
   F(kNorth, kYawRate) = -speed * t * s * t / 2;
   F(kHeading, kYawRate) = t;
+  const Eigen::Vector2d swing = turned_by_heading(lever, heads_rad);
+  const Eigen::Vector2d swing_by_heading = swing - turned_by_heading(lever, headed_rad);
+  F.block<2, 1>(kEast, kHeading) += swing_by_heading;
+  F.block<2, 1>(kEast, kMounting) -= swing_by_heading;
+  F.block<2, 1>(kEast, kYawRate) += t * swing;
 
   next.P = F * belief.P * F.transpose() + process_noise(t, {s, c}, settings);
   return next;

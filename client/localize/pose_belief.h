@@ -66,10 +66,17 @@ struct OdometrySettings {
   double yaw_rate_sigma = 0.01;  // rad/s
 };
 
+// Where the camera is beside the point of the vehicle that goes where the vehicle heads: where it
+// turns, the camera swings out.
+struct LeverArm {
+  double forward_m = 0;
+  double right_m = 0;
+};
+
 // Prediction by `elapsed_s` with constant speed and yaw rate. `slope` is that of the road, upwards.
 // REQUIRES: elapsed_s >= 0.
 PoseBelief predict(const PoseBelief& belief, double elapsed_s, double slope,
-                   const PoseMotionSettings& settings);
+                   const PoseMotionSettings& settings, const LeverArm& lever = {});
 
 // Adds the process noise of pitch and roll from one frame to the next, which does not depend on
 // time.

@@ -31,9 +31,9 @@ after. Images are referred to, not copied. Layouts:
   ros1            a .bag file: images, with NavSatFix, Odometry or both, Imu, CameraInfo
   ros2            the same in a .db3 file or the folder of a recording
 
---images is a folder, or a video with the layouts of a trajectory. Times of images (--times): a table with filename,timestamp_s; lines of time and name; or a time a
-line in the order of the names, in seconds or as 2011-09-30T12:40:59.123. Without it names that are
-numbers are times.
+--images is a folder, or a video with the layouts of a trajectory. Times of images (--times): a
+table with filename,timestamp_s; lines of time and name; or a time a line in the order of the names,
+in seconds or as 2011-09-30T12:40:59.123. Without it names that are numbers are times.
 
 A bag (--trajectory) has its images in it, which are written out: raw ones as PNG, compressed ones as
 they are. Positions are those of a receiver (NavSatFix); without one Odometry's, in a frame that

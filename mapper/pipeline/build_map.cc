@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "mapper/acceptance/check_point_survey.h"
 #include "mapper/codebook/codebook.h"
+#include "mapper/findings/clock_witness.h"
 #include "mapper/findings/datum_findings.h"
 #include "mapper/findings/witness_findings.h"
 #include "mapper/inspect/inspection.h"
@@ -191,92 +194,182 @@ Error nothing_found(const DriveReport& drive) {
           "check its frames and their order, leave the drive out, or give --allow-empty"};
 }
 
+namespace {
+
+// One run over all drives, in the order of its functions.
+class MapBuild {
+ public:
+  // REQUIRES: all outlive it.
+  MapBuild(const std::vector<Drive>& drives, const BuildSettings& settings,
+           const BuildChecks& checks)
+      : drives_(drives),
+        settings_(settings),
+        checks_(checks),
+        codebook_(settings.codebook ? *settings.codebook : shipped_codebook()),
+        survey_(checks.check_points) {}
+
+  Status prepare(const std::filesystem::path& map_file, int jobs) {
+    const Result<Datum> datum = common_datum(drives_);
+    if (!datum) return datum.error();
+    Result<BuildPlan> plan = plan_build(drives_, settings_, jobs);
+    if (!plan) return plan.error();
+    plan_ = std::move(*plan);
+    if (settings_.lab) {
+      if (const Status checked = check_cameras_agree(plan_.drives); !checked.ok()) return checked;
+    }
+    Result<DividedMap> map = DividedMap::create(plan_, map_file, settings_.division);
+    if (!map) return map.error();
+    map_.emplace(std::move(*map));
+    Result<LandmarkStore> store = LandmarkStore::create();
+    if (!store) return store.error();
+    store_.emplace(std::move(*store));
+    report_.findings = plan_.findings;
+    Status status = map_->set_feature_json(to_json(settings_.feature).dump());
+    if (status.ok()) status = map_->set_datum(*datum);
+    const Camera& camera = plan_.drives.front().drive->camera;
+    for (const Layer& layer : layers_of(settings_)) {
+      if (!status.ok()) break;
+      const auto parameters = parameters_of(layer, camera, codebook_, settings_.tile_length_m);
+      status = map_->add_layer(layer.name, to_json(parameters).dump());
+    }
+    return status;
+  }
+
+  // Maps the landmarks of each drive.
+  Status survey(int jobs, const OnProgress& on_progress) {
+    BuildProgress progress;
+    std::size_t stretch_number = 0;
+    for (const DrivePlan& drive : plan_.drives) progress.frames_total += drive.frames();
+    for (const DrivePlan& drive : plan_.drives) {
+      report_.drives.push_back({.folder = drive.drive->folder.string()});
+      std::vector<WitnessedHeading>& headings = headings_[drive.drive->name];
+      const AdjustedUse use_adjusted = [&](const Frame& recorded, const AdjustedFrame& adjusted,
+                                           const WitnessedPlace& place) {
+        log_.add(*drive.drive, place);
+        survey_.add(*drive.drive, recorded.filename, stretch_number, adjusted);
+        headings.push_back(
+            {recorded.timestamp_s, recorded.heading_deg, adjusted.heading_rad * kDegPerRad});
+      };
+      for (const StretchPlan& stretch : drive.stretches) {
+        const Status done =
+            StretchBuilder(*drive.drive, stretch, plan_, codebook_, settings_, *store_)
+                .run(jobs, *map_, report_, use_adjusted, progress, on_progress);
+        if (!done.ok()) return done;
+        ++stretch_number;
+      }
+      DriveReport& report = report_.drives.back();
+      report.witness = log_.of_drive(drive.drive->name);
+      const bool is_mapped = !drive.stretches.empty();
+      if (is_mapped && report.tracklets == 0 && !settings_.allow_empty)
+        return nothing_found(report);
+    }
+    report_.frames = progress.frames_done;
+    return ok_status();
+  }
+
+  // By how much the poses of a drive are late, as its images tell.
+  std::optional<double> poses_late_s(const Drive& drive) const {
+    const auto headings = headings_.find(drive.name);
+    return headings == headings_.end() ? std::nullopt : clock_offset_s(headings->second);
+  }
+
+  // Makes one map of all drives' landmarks.
+  Status fuse(const std::filesystem::path& map_file) {
+    for (const DriveReport& drive : report_.drives) {
+      if (const Status fits = check_fit(drive, settings_); !fits.ok()) return fits;
+    }
+    const auto fused = build_fused_tiles(
+        plan_, *store_, codebook_, settings_,
+        [&](const BuiltTile& tile) { return map_->add_tile(layers::kLandmarks, tile); });
+    if (!fused) return fused.error();
+    report_.check_points = residuals_of(survey_, plan_, fused->errors);
+    const Status set = map_->set_position_errors(plan_, fused->left);
+    return set.ok() ? check_residuals(report_.check_points, checks_.max_check_m, map_file) : set;
+  }
+
+  // Writes down what was found, also before, and publishes the map.
+  Result<BuildReport> publish(const std::vector<Finding>& found) {
+    add_findings(found);
+    for (const DriveReport& drive : report_.drives)
+      add_findings(witness_findings(drive.folder, drive.witness));
+    const std::vector<const Drive*> mapped = drives_of(plan_);
+    log_.add(checks_.found_before, mapped);
+    log_.add(report_.findings, mapped);
+    log_.set_check_points(report_.check_points);
+    if (const Status set = map_->set_mapping(plan_, log_); !set.ok()) return set.error();
+    Result<std::vector<MapReport>> maps = map_->finish();
+    if (!maps) return maps.error();
+    report_.maps = std::move(*maps);
+    for (MapReport& written : report_.maps) {
+      const Result<MapReader> reader = MapReader::open(written.file);
+      if (!reader) return reader.error();
+      const Result<MapInspection> inspected = inspect(*reader);
+      if (!inspected) return inspected.error();
+      written.sparse_m = inspected->gaps_m();
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void add_findings(const std::vector<Finding>& found) {
+    report_.findings.insert(report_.findings.end(), found.begin(), found.end());
+  }
+
+  const std::vector<Drive>& drives_;
+  const BuildSettings& settings_;
+  const BuildChecks& checks_;
+  const PcaProjection& codebook_;
+  BuildPlan plan_;
+  std::optional<DividedMap> map_;
+  std::optional<LandmarkStore> store_;
+  BuildReport report_;
+  MappingLog log_;
+  CheckPointSurvey survey_;
+  std::map<std::string, std::vector<WitnessedHeading>> headings_;  // by the drive's name
+};
+
+Finding late_poses(const Drive& drive, double late_s) {
+  return {"clock_offset",
+          (drive.folder / "trajectory.csv").string(),
+          0,
+          drive.frames.size(),
+          "the recorded poses are " + fixed(std::abs(late_s), 2) + " s " +
+              (late_s > 0 ? "ahead of" : "behind") + " the images, which turn so much " +
+              (late_s > 0 ? "later" : "earlier") +
+              "; the map is made of poses that were moved by it",
+          "correct the clock: import with --time-offset-s " + fixed(-late_s, 2)};
+}
+
+}  // namespace
+
 Result<BuildReport> build_map(const std::vector<Drive>& drives,
                               const std::filesystem::path& map_file, const BuildSettings& settings,
                               int jobs, const OnProgress& on_progress, const BuildChecks& checks) {
-  const Result<Datum> datum = common_datum(drives);
-  if (!datum) return datum.error();
-  const Result<BuildPlan> plan = plan_build(drives, settings, jobs);
-  if (!plan) return plan.error();
-  if (settings.lab) {
-    if (const Status checked = check_cameras_agree(plan->drives); !checked.ok())
-      return checked.error();
-  }
-  const PcaProjection& codebook = settings.codebook ? *settings.codebook : shipped_codebook();
-  Result<DividedMap> map = DividedMap::create(*plan, map_file, settings.division);
-  if (!map) return map.error();
-  Status status = map->set_feature_json(to_json(settings.feature).dump());
-  if (status.ok()) status = map->set_datum(*datum);
-  for (const Layer& layer : layers_of(settings)) {
-    if (status.ok())
-      status = map->add_layer(
-          layer.name, to_json(parameters_of(layer, plan->drives.front().drive->camera, codebook,
-                                            settings.tile_length_m))
-                          .dump());
-  }
-  Result<LandmarkStore> store = LandmarkStore::create();
-  if (!store) return store.error();
-  BuildReport report;
-  report.findings = plan->findings;
-  MappingLog log;
-  CheckPointSurvey survey(checks.check_points);
-  std::size_t stretch_number = 0;
-  BuildProgress progress;
-  for (const DrivePlan& drive : plan->drives) progress.frames_total += drive.frames();
-  for (const DrivePlan& drive : plan->drives) {
-    report.drives.push_back({.folder = drive.drive->folder.string()});
-    const AdjustedUse use_adjusted = [&](const Frame& recorded, const AdjustedFrame& adjusted,
-                                         const WitnessedPlace& place) {
-      log.add(*drive.drive, place);
-      survey.add(*drive.drive, recorded.filename, stretch_number, adjusted);
-    };
-    for (const StretchPlan& stretch : drive.stretches) {
-      if (!status.ok()) break;
-      status = StretchBuilder(*drive.drive, stretch, *plan, codebook, settings, *store)
-                   .run(jobs, *map, report, use_adjusted, progress, on_progress);
-      ++stretch_number;
+  const auto surveyed = [&](MapBuild& build) {
+    const Status prepared = build.prepare(map_file, jobs);
+    return prepared.ok() ? build.survey(jobs, on_progress) : prepared;
+  };
+  const auto published = [&](MapBuild& build,
+                             const std::vector<Finding>& late) -> Result<BuildReport> {
+    if (const Status fused = build.fuse(map_file); !fused.ok()) return fused.error();
+    return build.publish(late);
+  };
+  std::vector<Drive> on_time;
+  std::vector<Finding> late;
+  {
+    MapBuild build(drives, settings, checks);
+    if (const Status status = surveyed(build); !status.ok()) return status.error();
+    for (const Drive& drive : drives) {
+      const auto late_s = build.poses_late_s(drive);
+      if (late_s) late.push_back(late_poses(drive, *late_s));
+      on_time.push_back(late_s ? with_poses_of(drive, *late_s) : drive);
     }
-    report.drives.back().witness = log.of_drive(drive.drive->name);
-    const bool is_mapped = !drive.stretches.empty();
-    if (status.ok() && is_mapped && report.drives.back().tracklets == 0 && !settings.allow_empty) {
-      status = nothing_found(report.drives.back());
-    }
-    if (status.ok()) status = check_fit(report.drives.back(), settings);
+    if (late.empty()) return published(build, late);
   }
-  if (status.ok()) {
-    const auto fused = build_fused_tiles(
-        *plan, *store, codebook, settings,
-        [&](const BuiltTile& tile) { return map->add_tile(layers::kLandmarks, tile); });
-    status = fused ? map->set_position_errors(*plan, fused->left) : Status(fused.error());
-    if (status.ok()) {
-      report.check_points = residuals_of(survey, *plan, fused->errors);
-      status = check_residuals(report.check_points, checks.max_check_m, map_file);
-    }
-  }
-  for (const DriveReport& drive : report.drives) {
-    const std::vector<Finding> witnessed = witness_findings(drive.folder, drive.witness);
-    report.findings.insert(report.findings.end(), witnessed.begin(), witnessed.end());
-  }
-  if (status.ok()) {
-    const std::vector<const Drive*> mapped = drives_of(*plan);
-    log.add(checks.found_before, mapped);
-    log.add(report.findings, mapped);
-    log.set_check_points(report.check_points);
-    status = map->set_mapping(*plan, log);
-  }
-  if (!status.ok()) return status.error();
-  Result<std::vector<MapReport>> maps = map->finish();
-  if (!maps) return maps.error();
-  report.maps = std::move(*maps);
-  for (MapReport& written : report.maps) {
-    const Result<MapReader> reader = MapReader::open(written.file);
-    if (!reader) return reader.error();
-    const Result<MapInspection> inspected = inspect(*reader);
-    if (!inspected) return inspected.error();
-    written.sparse_m = inspected->gaps_m();
-  }
-  report.frames = progress.frames_done;
-  return report;
+  // Once more, with each image at the pose of its time.
+  MapBuild again(on_time, settings, checks);
+  if (const Status status = surveyed(again); !status.ok()) return status.error();
+  return published(again, late);
 }
 
 }  // namespace milepost

@@ -99,21 +99,22 @@ TEST(PoseBelief, PassesEachUncertaintyOnAsTheMeanMoves) {  // derivatives agains
   constexpr double kElapsedS = 0.4;
   constexpr double kSlope = -0.03;
   const PoseMotionSettings settings;
+  const LeverArm lever{1.2, 0.3};
   PoseBelief certain = driving_belief();
   certain.P.setZero();
-  const StateMatrix noise = predict(certain, kElapsedS, kSlope, settings).P;
+  const StateMatrix noise = predict(certain, kElapsedS, kSlope, settings, lever).P;
   for (int j = 0; j < kStates; ++j) {
     constexpr double kDifference = 1e-4;
     PoseBelief less = certain;
     PoseBelief more = certain;
     less.x[j] -= kDifference;
     more.x[j] += kDifference;
-    const StateVector by_j = (predict(more, kElapsedS, kSlope, settings).x -
-                              predict(less, kElapsedS, kSlope, settings).x) /
+    const StateVector by_j = (predict(more, kElapsedS, kSlope, settings, lever).x -
+                              predict(less, kElapsedS, kSlope, settings, lever).x) /
                              (2 * kDifference);
     PoseBelief unsure = certain;
     unsure.P(j, j) = 1;
-    const StateMatrix passed_on = predict(unsure, kElapsedS, kSlope, settings).P - noise;
+    const StateMatrix passed_on = predict(unsure, kElapsedS, kSlope, settings, lever).P - noise;
     EXPECT_LT((passed_on - by_j * by_j.transpose()).cwiseAbs().maxCoeff(), 1e-6) << j;
   }
 }
@@ -129,6 +130,18 @@ TEST(PoseBelief, DrivesAnArc) {
   EXPECT_NEAR(belief.x[kEast], radius_m * (1 - std::cos(1.0)), 1e-3);
   EXPECT_NEAR(belief.x[kNorth], radius_m * std::sin(1.0), 1e-3);
   EXPECT_NEAR(belief.x[kHeading], 1.3, 1e-12);
+}
+
+// A camera ahead of the rear axle, and to the right of it, turns about it.
+TEST(PoseBelief, ACameraOnAnArmSwingsOut) {
+  PoseBelief belief;
+  belief.x[kHeading] = 0.1;
+  belief.x[kMounting] = 0.1;  // the vehicle heads north
+  belief.x[kYawRate] = 0.5;
+  const PoseBelief next = predict(belief, std::acos(-1.0), 0, {}, {2, 0.5});  // a quarter turn
+  EXPECT_NEAR(next.x[kEast], 2 - 0.5, 1e-9);
+  EXPECT_NEAR(next.x[kNorth], -2 - 0.5, 1e-9);
+  EXPECT_NEAR(predict(belief, 1, 0, {}).x[kEast], 0, 1e-12);
 }
 
 TEST(PoseBelief, StandsStill) {
