@@ -1,5 +1,5 @@
 // The page of a report: it is self-contained, and strings stay strings.
-#include "client/evaluate/report/report_page.h"
+#include "schema/page/report_page.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "client/evaluate/report/report_data.h"
-#include "client/evaluate/report/report_numbers.h"
+#include "schema/page/report_numbers.h"
 #include "tests/client/evaluate/report/report_input.h"
 
 namespace milepost {
