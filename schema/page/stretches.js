@@ -29,7 +29,7 @@ function ways(holds) {
 
 // The looks of the classes of a view, from the best to the worst; the last is that of stretches without a value.
 function looks({classes, without}) {
-  return [...classes.map((each, i) => ({...each, is: i})), {name: without, colour: 'road', is: null}];
+  return [...classes.map((each, i) => ({...each, is: i})), {name: without, colour: 'none', is: null}];
 }
 
 // A layer for each class, the worst first, which the library draws on top.
@@ -74,9 +74,9 @@ function pick(plot, event) {
 function legendOfView() {
   const classes = column(page.views[view].column), gaps = column('gap');
   const isThere = (look) => look.is !== null || classes.includes(null);
-  const plan = page.parts.find((part) => part.part === 'plan').plot.layers.find((layer) => layer.kind === 'gaps');
+  const {layers} = page.parts.find((part) => part.part === 'plan').plot;
   return legend([...looks(page.views[view]).filter(isThere).map((look) => ({...look, kind: 'line', width_px: 5.5})),
-    ...(gaps.includes(1) ? [{...plan, kind: 'line'}] : [])]);
+    ...layers.filter(({kind}) => kind === 'gaps' && gaps.includes(1)).map((layer) => ({...layer, kind: 'line'})), ...layers.filter(({kind}) => kind === 'dots')]);
 }
 
 // The network in plan view, with the choice of what colours it.
@@ -169,7 +169,7 @@ const factList = (facts) => h('dl', {}, ...facts.map(([name, value]) => h('div',
 // The upper end of an axis that holds all values.
 function topOf(axis, values) {
   const most = Math.max(axis.max, ...values.filter((value) => value !== null));
-  if (axis.log) return roundStep(most);
+  if (axis.log) return roundStep(1.1 * most);
   const step = roundStep(most / 4);
   return step * Math.ceil(most / step - 1e-9);
 }
