@@ -209,6 +209,11 @@ PlanArea area_of(const MapReportData& data) {
   return area;
 }
 
+// Thin enough that roads beside one another can be told apart.
+double line_width_px(double area_width_m) {
+  return area_width_m > 3000 ? 3 : area_width_m > 800 ? 4 : 5.5;
+}
+
 // A mark that several drives saw is drawn once.
 void add_check_points(Json& layers, const MapReportData& data) {
   const LocalFrame frame(data.centre);
@@ -302,11 +307,12 @@ void add_stretches(Json& page, const MapReportData& data) {
 }
 
 Json plan_part(const MapReportData& data) {
-  Json plot = plan_plot(area_of(data),
-                        "The segments of the map in plan view, coloured by the choice above");
+  const PlanArea area = area_of(data);
+  const double width_px = line_width_px(area.east.length());
+  Json plot = plan_plot(area, "The segments of the map in plan view, coloured by the choice above");
   plot["stretches"] = true;
-  plot["layers"].push_back({{"kind", "chosen"}, {"colour", "ink"}, {"width_px", 11}});
-  plot["layers"].push_back({{"kind", "stretches"}, {"colour", "road"}, {"width_px", 5.5}});
+  plot["layers"].push_back({{"kind", "chosen"}, {"colour", "ink"}, {"width_px", 2 * width_px}});
+  plot["layers"].push_back({{"kind", "stretches"}, {"colour", "road"}, {"width_px", width_px}});
   plot["layers"].push_back({{"kind", "gaps"},
                             {"name", "too few landmarks for a fix"},
                             {"colour", "ink"},

@@ -45,8 +45,11 @@ function chosenLayers(layer) {
   return [{...layer, width_px: 1.5 * layer.width_px, holds: (i) => i === chosen}, {...layer, holds: (i) => column('segment')[i] === segment}];
 }
 
-// From a point of a plan to the line of a stretch, in pixels.
+// From a point of a plan to the line of a stretch, in pixels; infinite if the stretch is too far away to be meant.
 function distanceToWay({chart: {scales: {x, y}}}, frame, atX, atY) {
+  const half = (column('to_m')[frame] - column('from_m')[frame]) / 2 * x.width / (x.max - x.min);
+  const middle = [x.getPixelForValue(column('east_m')[frame]), y.getPixelForValue(column('north_m')[frame])];
+  if (Math.hypot(middle[0] - atX, middle[1] - atY) > NEAR_PX + half + 1) return Infinity;
   const first = column('way_first')[frame];
   let least = Infinity, from = null;
   for (let k = first; k < first + column('way_points')[frame]; ++k) {
@@ -153,6 +156,14 @@ function colourStrips() {
   }
 }
 
+// Brings the chosen cell into the box of the strips, without moving the page.
+function scrollStrips() {
+  const box = document.querySelector('.strips'), cell = document.querySelector('.chosen-cell');
+  const [outer, inner] = [box.getBoundingClientRect(), cell.getBoundingClientRect()];
+  if (inner.top < outer.top) box.scrollTop -= outer.top - inner.top + LINE_PX;
+  if (inner.bottom > outer.bottom) box.scrollTop += inner.bottom - outer.bottom + LINE_PX;
+}
+
 // The plots and facts of the chosen segment.
 function segmentElement(part) {
   const options = page.segments.map(({name}, i) => h('option', {value: i}, name));
@@ -208,4 +219,5 @@ function choose(frame) {
   if (isOther) drawAlong(segmentOf(frame));
   redrawPlan();
   colourStrips();
+  scrollStrips();
 }
