@@ -23,6 +23,6 @@ struct HistogramAxis {
 // From zero up, in percent of each set's values. The last bin holds all that is beyond it. Empty
 // figure without values.
 Figure histogram_figure(const std::string& heading, const std::string& caption,
-                        const HistogramAxis& axis, const std::vector<HistogramValues>& sets);
+                        const HistogramAxis& of, const std::vector<HistogramValues>& sets);
 
 }  // namespace milepost

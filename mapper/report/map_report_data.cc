@@ -63,7 +63,8 @@ Result<std::vector<PlacedLandmark>> landmarks_on(const MapReader& map, const std
     if (!frame) return frame.error();
     const auto tile = decode_landmarks(*frame);
     if (!tile) return tile.error();
-    for (PlacedLandmark& each : placed(*tile, line)) all.push_back(std::move(each));
+    const std::vector<PlacedLandmark> of_tile = placed(*tile, line);
+    all.insert(all.end(), of_tile.begin(), of_tile.end());
     const double on_m = length_of(entry, parameters.tile_length_m, line.length_m());
     if (on_m >= kLeastM)
       data.tile_kb_per_m.push_back(static_cast<double>(entry.bytes) / 1000 / on_m);
@@ -166,7 +167,7 @@ Result<MapReportData> map_report_data(const MapReader& map,
   if (map.layers().contains(layers::kLandmarks)) {
     Result<TileParameters> read = tile_parameters(map);
     if (!read) return read.error();
-    parameters = std::move(*read);
+    parameters = *read;
   }
   for (SegmentInspection& segment : std::exchange(data.map.segments, {})) {
     Result<SegmentReport> report =

@@ -159,6 +159,7 @@ std::string passes_text(const StoredSegment& segment) {
   std::map<std::string, std::size_t> times;
   for (const StoredPass& pass : segment.passes) ++times[pass.drive];
   std::vector<std::string> words;
+  words.reserve(times.size());
   for (const auto& [drive, count] : times)
     words.push_back(count == 1 ? drive : drive + " (" + std::to_string(count) + " times)");
   if (words.empty()) return "no pass is recorded";

@@ -103,7 +103,7 @@ std::vector<PlacedLandmark> placed(const LandmarkTile& tile, const RouteLine& li
     PlacedLandmark each{landmark, tile_frame.geo_from_enu(landmark.position),
                         middle.geo_from_enu(beside)};
     each.distance_m = (vector_of(middle.enu_from_geo(each.position)) - vector_of(beside)).norm();
-    all.push_back(std::move(each));
+    all.push_back(each);
   }
   return all;
 }
