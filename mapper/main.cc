@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
                                 {"codebook", milepost::add_codebook},
                                 {"aerial", milepost::add_aerial},
                                 {"inspect", milepost::add_inspect},
+                                {"report", milepost::add_report},
                                 {"verify", milepost::add_verify},
                                 {"export", milepost::add_export}},
                                argc, argv);

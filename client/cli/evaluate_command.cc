@@ -12,9 +12,9 @@
 #include "client/evaluate/output.h"
 #include "client/evaluate/replay.h"
 #include "client/evaluate/report/report_data.h"
-#include "client/evaluate/report/report_page.h"
 #include "client/evaluate/tum.h"
 #include "schema/base/file.h"
+#include "schema/page/report_page.h"
 
 namespace milepost {
 namespace {

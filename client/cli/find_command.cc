@@ -8,12 +8,12 @@
 #include "client/evaluate/find_errors.h"
 #include "client/evaluate/output.h"
 #include "client/evaluate/report/find_report_data.h"
-#include "client/evaluate/report/report_page.h"
 #include "client/fetch/walls.h"
 #include "schema/base/csv_text.h"
 #include "schema/base/digits.h"
 #include "schema/base/file.h"
 #include "schema/geo/geodesy.h"
+#include "schema/page/report_page.h"
 
 namespace milepost {
 namespace {

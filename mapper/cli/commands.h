@@ -11,6 +11,7 @@ RunCommand add_aerial(CLI::App& app);
 RunCommand add_export(CLI::App& app);
 RunCommand add_import(CLI::App& app);
 RunCommand add_inspect(CLI::App& app);
+RunCommand add_report(CLI::App& app);
 RunCommand add_verify(CLI::App& app);
 
 }  // namespace milepost

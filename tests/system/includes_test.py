@@ -24,6 +24,7 @@ MAY_INCLUDE = {
     "schema/tile/": [BASE, "schema/geo/geodesy.h", "schema/tile/", *FEATURE_TYPES],
     "schema/feature/types": [BASE, *FEATURE_TYPES],
     "schema/feature/": [BASE, "schema/geo/", "schema/feature/"],
+    "schema/page/": [BASE, "schema/geo/geodesy.h", "schema/page/"],
     "schema/drive/": [BASE, "schema/geo/", "schema/drive/"],
     "mapper/": ["mapper/", "schema/"],
     "server/": ["server/", BASE, COMMAND, "schema/document/", "schema/store/", "schema/geo/"],

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "client/evaluate/report/find_report_figures.h"
-#include "client/evaluate/report/report_plan.h"
+#include "schema/page/report_plan.h"
 
 namespace milepost {
 

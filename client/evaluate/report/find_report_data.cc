@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "client/evaluate/report/drive_facts.h"
 #include "client/evaluate/report/find_report_figures.h"
-#include "client/evaluate/report/report_numbers.h"
-#include "client/evaluate/report/report_plan.h"
+#include "schema/page/report_numbers.h"
+#include "schema/page/report_plan.h"
 
 namespace milepost {
 namespace {

@@ -8,7 +8,7 @@
 #include "client/evaluate/find_drive.h"
 #include "client/evaluate/report/backdrop.h"
 #include "client/evaluate/report/find_recorder.h"
-#include "client/evaluate/report/report_json.h"
+#include "schema/page/report_json.h"
 
 namespace milepost {
 

@@ -5,7 +5,7 @@
 
 #include "client/evaluate/find_errors.h"
 #include "client/evaluate/report/find_report_data.h"
-#include "client/evaluate/report/report_plan.h"
+#include "schema/page/report_plan.h"
 
 namespace milepost {
 

@@ -7,8 +7,8 @@
 
 #include "client/evaluate/report/find_plan_areas.h"
 #include "client/evaluate/report/find_report_figures.h"
-#include "client/evaluate/report/report_layers.h"
-#include "client/evaluate/report/report_numbers.h"
+#include "schema/page/report_layers.h"
+#include "schema/page/report_numbers.h"
 
 namespace milepost {
 namespace {

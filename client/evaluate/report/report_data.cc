@@ -3,9 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "client/evaluate/report/drive_facts.h"
 #include "client/evaluate/report/report_figures.h"
-#include "client/evaluate/report/report_numbers.h"
 #include "client/evaluate/report/report_table.h"
+#include "schema/page/report_numbers.h"
 
 namespace milepost {
 namespace {

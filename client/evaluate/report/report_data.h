@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "client/evaluate/evaluation.h"
-#include "client/evaluate/report/report_json.h"
 #include "client/evaluate/roads_around.h"
 #include "schema/drive/drive.h"
+#include "schema/page/report_json.h"
 
 namespace milepost {
 

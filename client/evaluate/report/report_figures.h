@@ -1,8 +1,8 @@
 // The figures of the report. Each is valid even without data to draw.
 #pragma once
 
-#include "client/evaluate/report/report_json.h"
 #include "client/evaluate/report/report_series.h"
+#include "schema/page/report_json.h"
 
 namespace milepost {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "client/evaluate/report/report_figures.h"
-#include "client/evaluate/report/report_numbers.h"
+#include "schema/page/report_numbers.h"
 
 namespace milepost {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "client/evaluate/report/report_figures.h"
-#include "client/evaluate/report/report_layers.h"
-#include "client/evaluate/report/report_numbers.h"
-#include "client/evaluate/report/report_plan.h"
+#include "schema/page/report_layers.h"
+#include "schema/page/report_numbers.h"
+#include "schema/page/report_plan.h"
 
 namespace milepost {
 namespace {

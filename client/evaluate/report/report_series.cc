@@ -8,8 +8,9 @@
 #include <string_view>
 #include <utility>
 
-#include "client/evaluate/report/report_numbers.h"
+#include "client/evaluate/report/robust_reach.h"
 #include "client/evaluate/statistics.h"
+#include "schema/page/report_numbers.h"
 
 namespace milepost {
 namespace {

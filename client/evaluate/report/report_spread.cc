@@ -4,9 +4,10 @@
 #include <numbers>
 
 #include "client/evaluate/report/report_figures.h"
-#include "client/evaluate/report/report_layers.h"
-#include "client/evaluate/report/report_numbers.h"
+#include "client/evaluate/report/robust_reach.h"
 #include "client/evaluate/statistics.h"
+#include "schema/page/report_layers.h"
+#include "schema/page/report_numbers.h"
 
 namespace milepost {
 namespace {

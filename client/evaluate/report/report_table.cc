@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "client/evaluate/report/report_numbers.h"
+#include "schema/page/report_numbers.h"
 
 namespace milepost {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "client/evaluate/evaluation.h"
-#include "client/evaluate/report/report_json.h"
+#include "schema/page/report_json.h"
 
 namespace milepost {
 

@@ -6,9 +6,9 @@ import pathlib
 
 from .runs import PROJECT
 
-PAGE = PROJECT / "client/evaluate/report/page"
+PAGE = PROJECT / "schema/page"
 CHART_JS = pathlib.Path("/usr/share/javascript/chart.js/chart.min.js")
-SCRIPTS = ("document.js", "plots.js", "interaction.js")
+SCRIPTS = ("document.js", "plots.js", "stretches.js", "interaction.js")
 
 
 def figure(title, plots, caption, stacked=False):

@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "client/evaluate/report/find_report_figures.h"
-#include "client/evaluate/report/report_numbers.h"
-#include "client/evaluate/report/report_page.h"
+#include "schema/page/report_numbers.h"
+#include "schema/page/report_page.h"
 #include "tests/client/evaluate/found_run.h"
 #include "tests/client/evaluate/report/page_data.h"
 

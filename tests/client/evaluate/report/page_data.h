@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/evaluate/report/report_json.h"
+#include "schema/page/report_json.h"
 
 namespace milepost::testing {
 

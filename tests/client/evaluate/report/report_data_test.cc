@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "client/evaluate/report/report_numbers.h"
+#include "schema/page/report_numbers.h"
 #include "tests/client/evaluate/report/page_data.h"
 #include "tests/client/evaluate/report/report_input.h"
 

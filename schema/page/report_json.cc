@@ -1,26 +1,8 @@
-#include "client/evaluate/report/report_json.h"
+#include "schema/page/report_json.h"
 
 #include <cmath>
 
-#include "client/evaluate/report/report_numbers.h"
-
 namespace milepost {
-namespace {
-
-std::string frames_fact(const Drive& drive) {
-  std::string text = std::to_string(drive.frames.size());
-  if (drive.frames.size() > 1) {
-    const double duration_s = drive.frames.back().timestamp_s - drive.frames.front().timestamp_s;
-    text += " in " + number(duration_s, 1) + " s";
-  }
-  if (drive.camera.width_px > 0) {
-    text += ", " + std::to_string(drive.camera.width_px) + " \u00D7 " +
-            std::to_string(drive.camera.height_px) + " pixels";
-  }
-  return text;
-}
-
-}  // namespace
 
 Json rounded(double value, int decimals) {
   if (!std::isfinite(value)) return nullptr;
@@ -60,15 +42,8 @@ Json words_column(const std::string& heading) {
   return {{"heading", heading}, {"unit", ""}, {"decimals", nullptr}};
 }
 
-Facts facts_of(const Drive& drive) {
-  return {{"Captured", drive.captured},
-          {"Frames", frames_fact(drive)},
-          {"Recording", drive.source},
-          {"Licence", drive.licence}};
-}
-
-std::string title_of(const Drive& drive) {
-  return drive.name.empty() ? "unnamed drive" : drive.name;
+Json text_column(const std::string& heading) {
+  return {{"heading", heading}, {"unit", ""}, {"decimals", 0}, {"text", true}};
 }
 
 Json json_of(const PageHead& head) {

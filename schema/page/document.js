@@ -25,7 +25,7 @@ const column = (reference) => typeof reference === 'string' ? page.columns[refer
 function cell(value, of, isBest) {
   const text = typeof value === 'string' ? value : number(value, of.decimals);
   if (of.decimals === null) return h('th', {scope: 'row'}, text);
-  return h('td', {'data-label': of.heading, 'data-unit': of.unit}, isBest ? h('strong', {}, text) : text);
+  return h('td', {'data-label': of.heading, 'data-unit': of.unit, ...(of.text ? {class: 'words'} : {})}, isBest ? h('strong', {}, text) : text);
 }
 
 function row(of, columns) {
@@ -34,7 +34,7 @@ function row(of, columns) {
 }
 
 function table(part) {
-  const heads = part.columns.map((each) => h('th', {scope: 'col'}, each.heading, ' ', h('small', {}, each.unit)));
+  const heads = part.columns.map((each) => h('th', {scope: 'col', ...(each.text ? {class: 'words'} : {})}, each.heading, ' ', h('small', {}, each.unit)));
   return h('table', {}, h('thead', {}, h('tr', {}, ...heads)), h('tbody', {}, ...part.rows.map((each) => row(each, part.columns))));
 }
 
@@ -79,7 +79,11 @@ const parts = {
     ? h('details', {}, h('summary', {}, 'Table'), table(part))
     : h('section', {}, h('h2', {}, part.heading), table(part), ...note(part.note)),
   group: (part) => h('section', {}, ...(part.heading ? [h('h2', {}, part.heading)] : []), ...legend(part.keys || []),
-    h('div', {class: 'pair'}, ...part.parts.map(shown))),
+    h('div', {class: 'pair'}, ...part.parts.map(shown)), ...note(part.note)),
+  note: (part) => h('section', {}, h('h2', {}, part.heading), ...note(part.text)),
+  plan: networkElement,
+  strips: stripsElement,
+  segment: segmentElement,
   claims: (part) => h('section', {}, h('h2', {}, part.heading), h('ul', {class: 'claims'}, ...part.claims.map((claim) =>
     h('li', {}, h('p', {class: `verdict ${claim.verdict.replace(' ', '-')}`}, claim.verdict),
       h('div', {}, h('p', {}, claim.text), h('p', {class: 'figures'}, claim.figures))))), ...note(part.note)),

@@ -1,4 +1,4 @@
-#include "client/evaluate/report/report_layers.h"
+#include "schema/page/report_layers.h"
 
 #include <utility>
 

@@ -72,8 +72,12 @@ function moveBy(plot, rightPx, downPx) {
   zoomTo(plot, moved(range(plot, 'x'), -rightPx / width), moved(range(plot, 'y'), downPx / height));
 }
 
+// Whether a plot is over this frame; one along a segment is only over some.
+const covers = (spec, frame) => !Array.isArray(spec.frames) || (frame >= spec.frames[0] && frame < spec.frames[1]);
+
 // The position of a frame in a plot, in pixels; null if it is not visible.
 function place({spec, chart: {scales: {x, y}, chartArea}}, frame) {
+  if (!covers(spec, frame)) return null;
   const at = column(spec.plan ? page.frames.east : page.frames.x)[frame];
   const north = spec.plan ? column(page.frames.north)[frame] : null;
   if (at === null || at === undefined || (spec.plan && north === null)) return null;
@@ -85,8 +89,9 @@ function nearestFrame(plot, x, y) {
   let best = null, least = plot.spec.plan ? NEAR_PX : Infinity;
   for (let frame = 0; frame < column(page.frames.x).length; ++frame) {
     const at = place(plot, frame);
-    if (!at) continue;
-    const distance = plot.spec.plan ? Math.hypot(at[0] - x, at[1] - y) : Math.abs(at[0] - x);
+    if (!at && !plot.spec.stretches) continue;
+    const distance = plot.spec.stretches ? distanceToWay(plot, frame, x, y)
+      : plot.spec.plan ? Math.hypot(at[0] - x, at[1] - y) : Math.abs(at[0] - x);
     if (distance < least) [best, least] = [frame, distance];
   }
   return best;
@@ -120,14 +125,19 @@ function dockReadout(clientY) {
 // The values of each method for a frame.
 function readoutOf(frame) {
   const {label, x, decimals, unit, names, rows} = page.frames;
-  const value = (of) => {
-    const raw = column(of.column)[frame];
-    return h('td', {}, of.words ? of.words[raw] : number(raw, of.decimals, of.signed) + (raw === null || !of.unit ? '' : ` ${of.unit}`));
-  };
   const heads = rows[0].values.map((of) => h('th', {scope: 'col'}, of.label));
-  return [h('p', {}, `${column(names)[frame]}, ${label} ${number(column(x)[frame], decimals)} ${unit}`),
-    h('table', {}, h('thead', {}, h('tr', {}, h('td'), ...heads)), h('tbody', {}, ...rows.map((row) =>
-      h('tr', {}, h('th', {scope: 'row'}, sample({kind: 'line', colour: row.colour}), row.name), ...row.values.map(value)))))];
+  const title = page.segments ? titleOf(frame) : `${column(names)[frame]}, ${label} ${number(column(x)[frame], decimals)} ${unit}`;
+  return [h('p', {}, title),
+    h('table', {}, ...(page.segments ? [] : [h('thead', {}, h('tr', {}, h('td'), ...heads))]), h('tbody', {}, ...rows.map((row) =>
+      h('tr', {}, h('th', {scope: 'row'}, ...(row.colour ? [sample({kind: 'line', colour: row.colour})] : []), row.name),
+        ...row.values.map((of) => h('td', {}, valueOf(of, frame)))))))];
+}
+
+// A value of the readout as text.
+function valueOf(of, frame) {
+  const raw = column(of.column)[frame];
+  if (of.words) return raw === null ? '–' : of.words[raw];
+  return number(raw, of.decimals, of.signed) + (raw === null || !of.unit ? '' : ` ${of.unit}`);
 }
 
 function hover(plot, event) {
@@ -140,16 +150,19 @@ function hover(plot, event) {
 function listenToPointer(plot) {
   const {box, spec} = plot;
   const chosen = box.querySelector('.chosen');
-  let start = null, last = null;
+  let start = null, last = null, moved = false;
   const offset = (event) => event.clientX - box.getBoundingClientRect().left;
   const stretch = (event) => [Math.min(start.x, offset(event)), Math.max(start.x, offset(event))];
   box.addEventListener('pointerdown', (event) => {
     if (event.button !== 0 || event.target.closest('button')) return;
-    start = {x: offset(event)};
+    start = {x: offset(event), clientX: event.clientX, clientY: event.clientY};
     last = event;
+    moved = false;
     box.setPointerCapture(event.pointerId);
   });
   box.addEventListener('pointermove', (event) => {
+    moved = moved || (start && Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) >= LEAST_DRAG_PX);
+    if (start && spec.plan && !moved) return;
     if (start && spec.plan) {
       moveBy(plot, event.clientX - last.clientX, event.clientY - last.clientY);
     } else if (start) {
@@ -165,11 +178,12 @@ function listenToPointer(plot) {
     if (start && !chosen.hidden) {
       zoomTo(plot, stretch(event).map((pixel) => x.getValueForPixel(Math.min(Math.max(pixel, chartArea.left), chartArea.right))));
     }
+    if (start && !moved && page.segments) pick(plot, event);
     chosen.hidden = true;
     start = null;
   });
   box.addEventListener('pointercancel', () => { chosen.hidden = true; start = null; });
-  box.addEventListener('pointerleave', () => setCursor(null));
+  box.addEventListener('pointerleave', (event) => { if (!page.segments || event.pointerType !== 'touch') setCursor(null); });
   box.addEventListener('dblclick', () => reset(plot));
 }
 
@@ -187,8 +201,8 @@ function listenToWheel(plot) {
 // Arrow keys move the cursor, or a plan; + and - zoom, Escape resets.
 function listenToKeys(plot) {
   const step = (frames) => {
-    const last = column(page.frames.x).length - 1;
-    setCursor(Math.min(Math.max(cursor === null ? 0 : cursor + frames, 0), last));
+    const [first, end] = Array.isArray(plot.spec.frames) ? plot.spec.frames : [0, column(page.frames.x).length];
+    setCursor(Math.min(Math.max(cursor === null ? first : cursor + frames, first), end - 1));
     dockReadout(plot.box.getBoundingClientRect().bottom);
   };
   const arrow = (right, down) => {
@@ -225,15 +239,24 @@ function fit({spec, box, chart}) {
   chart.resize();
 }
 
-function drawAll() {
-  for (const plot of plots) {
-    const ranges = plot.chart && [range(plot, 'x'), range(plot, 'y')];
-    if (plot.chart) plot.chart.destroy();
-    plot.chart = new Chart(plot.canvas, configuration(plot.spec));
-    if (ranges) ['x', 'y'].forEach((which, k) => setRange(plot, which, ranges[k]));
-    if (plot.spec.plan) fit(plot);
-    update(plot);
-  }
+function draw(plot) {
+  const ranges = plot.chart && [range(plot, 'x'), range(plot, 'y')];
+  if (plot.chart) plot.chart.destroy();
+  plot.chart = new Chart(plot.canvas, configuration(plot.spec));
+  if (ranges) ['x', 'y'].forEach((which, k) => setRange(plot, which, ranges[k]));
+  if (plot.spec.plan) fit(plot);
+  update(plot);
+}
+
+const drawAll = () => plots.forEach(draw);
+
+function listenTo(plot) {
+  listenToPointer(plot);
+  listenToKeys(plot);
+  if (!plot.spec.plan) return;
+  listenToWheel(plot);
+  addButtons(plot);
+  new ResizeObserver(() => { plot.chart.resize(); fit(plot); showCursor(plot); }).observe(plot.box);
 }
 
 function onPaper(isOn) {
@@ -246,15 +269,8 @@ function start() {
   document.getElementById('page').append(head(), ...page.parts.map(shown));
   drawAll();
   loadPicture();
-  for (const plot of plots) {
-    listenToPointer(plot);
-    listenToKeys(plot);
-    if (plot.spec.plan) {
-      listenToWheel(plot);
-      addButtons(plot);
-      new ResizeObserver(() => { plot.chart.resize(); fit(plot); showCursor(plot); }).observe(plot.box);
-    }
-  }
+  plots.forEach(listenTo);
+  if (page.segments) choose(page.segments[page.parts.find((part) => part.part === 'strips').order[0]].first);
   addEventListener('resize', () => plots.forEach(showCursor));
   addEventListener('scroll', (event) => { scrolled = event.timeStamp; setCursor(null); });
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);

@@ -4,7 +4,7 @@ const LEFT_PX = 52, RIGHT_PX = 20, AROUND_PX = 80;  // margins for axis labels
 const LANE_PX = 9;
 const STATUS = {  // styles that differ in more than colour
   initializing: {colour: 'muted', width_px: 5, opacity: 0.4}, predicted: {colour: 'muted', width_px: 2}, lost: {colour: 'ink', width_px: 5},
-  'off-map': {colour: 'muted', width_px: 5, dash: [2, 3]}, tracking: {colour: 'm0', width_px: 5},
+  'off-map': {colour: 'muted', width_px: 5, dash: [2, 3]}, tracking: {colour: 'm0', width_px: 5}, 'few landmarks': {colour: 'ink', width_px: 5},
 };
 
 const plots = [];  // {spec, box, canvas, chart}: all plots of the page
@@ -54,6 +54,9 @@ const datasetsOf = {
     dataset(layer, points(layer.x, layer.y), {borderWidth: 0, fill: '+1'}),
     dataset(layer, points(layer.x, layer.low || column(layer.y).map((value) => value === null ? null : -value)), {borderWidth: 0, label: undefined})],
   texts: () => [],
+  stretches: (layer) => stretchLayers(layer).map((each) => dataset(each, ways(each.holds))),
+  gaps: (layer) => [dataset(layer, ways((i) => column('gap')[i] === 1))],
+  chosen: (layer) => chosenLayers(layer).map((each) => dataset(each, ways(each.holds))),
 };
 
 // The library draws the first dataset last. A pale edge makes a line legible on background images.

@@ -1,4 +1,4 @@
-#include "client/evaluate/report/report_plan.h"
+#include "schema/page/report_plan.h"
 
 #include <cmath>
 

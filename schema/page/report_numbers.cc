@@ -1,15 +1,13 @@
-#include "client/evaluate/report/report_numbers.h"
+#include "schema/page/report_numbers.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "client/evaluate/statistics.h"
 #include "schema/base/digits.h"
 
 namespace milepost {
 namespace {
 
-constexpr double kHeadroom = 1.05;  // keeps the mark of the largest value inside the plot
 constexpr double kRounding = 1e-9;  // tolerance of rounding errors in a step
 
 }  // namespace
@@ -44,15 +42,6 @@ std::string listed(const std::vector<std::string>& words) {
     text += words[i];
   }
   return text;
-}
-
-double robust_reach(std::vector<double> magnitudes) {
-  magnitudes = finite_only(magnitudes);
-  if (magnitudes.empty()) return 0;
-  for (double& each : magnitudes) each = std::abs(each);
-  std::sort(magnitudes.begin(), magnitudes.end());
-  const double usual = quantile(magnitudes, 0.9);
-  return kHeadroom * (usual > 0 ? std::min(magnitudes.back(), 2.5 * usual) : magnitudes.back());
 }
 
 RoundStep round_step(double least) {

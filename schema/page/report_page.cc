@@ -1,4 +1,4 @@
-#include "client/evaluate/report/report_page.h"
+#include "schema/page/report_page.h"
 
 #include <sodium.h>
 
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "client/evaluate/report/report_page_files.h"
+#include "schema/page/report_page_files.h"
 
 namespace milepost {
 namespace {

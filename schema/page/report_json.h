@@ -1,7 +1,11 @@
-// The JSON data of a report page (shown by page/, also produced by tests/lab):
+// The JSON data of a report page (shown by the scripts of this folder, also produced by tests/lab):
 //
 // {kind, title, lead, facts: [[name, value], ...], columns: {name: [one value per frame]},
 //  parts: [...], frames: {x, names, east, north, label, unit, decimals, rows}, ground: {picture}}
+//
+// In the report of a map the frames are stretches of its segments, and there are, too,
+// {segments: [{name, first, end, length_m, gaps, facts}, ...],
+//  views: [{name, column, classes: [{name, colour}, ...], without, caption}, ...]}.
 //
 // A part is a table, a figure of plots, or a group of parts. A plot has two axes and layers, from
 // back to front, of the kinds line, dots, band, area and texts; their x and y are arrays or names
@@ -14,8 +18,6 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
-
-#include "schema/drive/drive.h"
 
 namespace milepost {
 
@@ -37,13 +39,10 @@ Json json_of(const Figure& figure);
 Json axis(const std::string& label, double min, double max, int decimals = 2);
 Json table_column(const std::string& heading, const std::string& unit, int decimals);
 Json words_column(const std::string& heading);  // of row names
+Json text_column(const std::string& heading);   // of other texts
 
 // Names and values.
 using Facts = std::vector<std::pair<std::string, std::string>>;
-
-// When the drive was captured, its frames, where it comes from and its licence.
-Facts facts_of(const Drive& drive);
-std::string title_of(const Drive& drive);  // or a placeholder if it has none
 
 struct PageHead {
   std::string kind;   // "evaluation"

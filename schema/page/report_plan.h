@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "client/evaluate/report/report_json.h"
 #include "schema/geo/geodesy.h"
+#include "schema/page/report_json.h"
 
 namespace milepost {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "client/evaluate/report/report_json.h"
 #include "schema/base/output_file.h"
+#include "schema/page/report_json.h"
 
 namespace milepost {
 

@@ -21,10 +21,6 @@ std::string counted(std::size_t count, const std::string& noun);
 // "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& words);
 
-// The range of a scale that ignores outliers: the largest value, at most 2.5 times the 90th
-// percentile (four sigmas of a normal distribution), plus some headroom. 0 without finite values.
-double robust_reach(std::vector<double> magnitudes);
-
 // 1, 2 or 5 times a power of ten.
 struct RoundStep {
   double length = 0;
