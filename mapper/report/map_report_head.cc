@@ -107,7 +107,7 @@ std::string lead_of(const MapReportData& data) {
   return "On " + number(share_within_percent(data, kDecimetreM), 0) + "\u00A0% of the road a fix " +
          "would have a \u03C3 in the world of 0.1\u00A0m or less, on " +
          number(share_within_percent(data, kAssumedM), 0) + "\u00A0% of 0.2\u00A0m or less. " +
-         (gaps.count == 0 ? "Everywhere there are enough landmarks for one."
+         (gaps.count == 0 ? "Nowhere are fewer than 20 landmarks in sight on ten metres."
                           : "On " + gaps_text(gaps) + " there are too few landmarks for one.") +
          findings_clause(data);
 }
