@@ -30,24 +30,48 @@ std::optional<Between> between_rows(const std::vector<Row>& rows, double timesta
                  (timestamp_s - before->timestamp_s) / elapsed_s};
 }
 
-// The standard deviation of what is left between adjusted headings and recorded ones of earlier.
-// Nothing if fewer than half can be compared.
+// The recorded heading of earlier.
+std::optional<double> recorded_deg(const std::vector<WitnessedHeading>& headings,
+                                   double timestamp_s) {
+  const auto at = between_rows(headings, timestamp_s);
+  if (!at) return std::nullopt;
+  const double from_deg = headings[at->before].recorded_deg;
+  return from_deg + at->part * turn_deg(from_deg, headings[at->before + 1].recorded_deg);
+}
+
+// The root mean square of what is left between the turns from frame to frame of the adjusted
+// headings and those of the recorded ones of earlier. Turns, for a record that contradicts the
+// images bends the adjusted headings slowly. Nothing if fewer than half can be compared.
 std::optional<double> left_deg(const std::vector<WitnessedHeading>& headings, double earlier_s) {
-  std::vector<double> off_deg;
-  for (const WitnessedHeading& heading : headings) {
-    const auto at = between_rows(headings, heading.timestamp_s - earlier_s);
-    if (!at) continue;
-    const double from_deg = headings[at->before].recorded_deg;
-    const double recorded_deg =
-        from_deg + at->part * turn_deg(from_deg, headings[at->before + 1].recorded_deg);
-    off_deg.push_back(turn_deg(recorded_deg, heading.adjusted_deg));
-  }
-  if (2 * off_deg.size() < headings.size()) return std::nullopt;
-  double mean = 0;
-  for (const double off : off_deg) mean += off / static_cast<double>(off_deg.size());
   double squares = 0;
-  for (const double off : off_deg) squares += (off - mean) * (off - mean);
-  return std::sqrt(squares / static_cast<double>(off_deg.size()));
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 1 < headings.size(); ++i) {
+    const WitnessedHeading& from = headings[i];
+    const WitnessedHeading& to = headings[i + 1];
+    const auto before = recorded_deg(headings, from.timestamp_s - earlier_s);
+    const auto after = recorded_deg(headings, to.timestamp_s - earlier_s);
+    if (!before || !after || to.timestamp_s - from.timestamp_s > kMaxGapS) continue;
+    const double off_deg = turn_deg(from.adjusted_deg, to.adjusted_deg) - turn_deg(*before, *after);
+    squares += off_deg * off_deg;
+    ++count;
+  }
+  if (2 * count < headings.size()) return std::nullopt;
+  return std::sqrt(squares / static_cast<double>(count));
+}
+
+// Whether the recorded headings go with the way between the recorded positions as they are, and not
+// with that of so much later.
+bool go_with_positions(std::vector<WitnessedHeading> headings, double earlier_s) {
+  constexpr double kBetter = 0.8;
+  for (std::size_t i = 1; i + 1 < headings.size(); ++i) {
+    headings[i].adjusted_deg =
+        geodesic_azimuth_deg(headings[i - 1].position, headings[i + 1].position);
+  }
+  headings.erase(headings.begin());
+  headings.pop_back();
+  const auto as_they_are = left_deg(headings, 0);
+  const auto moved = left_deg(headings, earlier_s);
+  return as_they_are && moved && *as_they_are < kBetter * *moved;
 }
 
 }  // namespace
@@ -56,8 +80,8 @@ std::optional<double> clock_offset_s(std::vector<WitnessedHeading> headings) {
   constexpr std::size_t kFewest = 20;
   constexpr double kMaxOffsetS = 2;
   constexpr double kLeastTurnDeg = 5;  // altogether
-  constexpr double kLeastOffDeg = 0.3;
-  constexpr double kBetter = 0.5;  // of the standard deviation
+  constexpr double kLeastOffDeg = 0.15;
+  constexpr double kBetter = 0.6;
   if (headings.size() < kFewest) return std::nullopt;
   std::ranges::sort(headings, {}, &WitnessedHeading::timestamp_s);
   std::vector<double> intervals_s;
@@ -81,7 +105,8 @@ std::optional<double> clock_offset_s(std::vector<WitnessedHeading> headings) {
     best_deg = *left;
     best_s = i * step_s;
   }
-  const bool is_found = std::abs(best_s) >= interval_s / 2 && best_deg < kBetter * *as_recorded;
+  const bool is_found = std::abs(best_s) >= interval_s / 2 && best_deg < kBetter * *as_recorded &&
+                        go_with_positions(headings, best_s);
   return is_found ? std::optional(best_s) : std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schema/drive/drive.h"
+#include "schema/geo/geodesy.h"
 
 namespace milepost {
 
@@ -13,11 +14,13 @@ struct WitnessedHeading {
   double timestamp_s = 0;
   double recorded_deg = 0;
   double adjusted_deg = 0;  // by the images; turned by the camera's mounting, whatever that is
+  GeoPoint position;        // as recorded
 };
 
 // How much later the recorded poses are than the images: the offset by which the recorded headings,
-// moved back, go best with the adjusted ones. Nothing if they go as well as they are, or if the
-// drive hardly turns. Headings in any order.
+// moved back, go best with the adjusted ones. Nothing if they go as well as they are, if the drive
+// hardly turns, or if they do not go best with the recorded positions as they are: then they alone
+// are wrong, and not the clock. Headings in any order.
 std::optional<double> clock_offset_s(std::vector<WitnessedHeading> headings);
 
 // The drive with the poses that its record has so much earlier; frames without one are left out.

@@ -8,13 +8,16 @@
 #include "schema/geo/geodesy.h"
 
 namespace milepost {
+namespace {
 
-ImageMotion::ImageMotion(const Camera& camera) {
-  constexpr double kWidthPx = 320;
-  scale_ = kWidthPx / camera.width_px;
-  focal_px_ = camera.pinhole.focal_x_px * scale_;
-  principal_y_px_ = camera.pinhole.principal_y_px * scale_;
-}
+constexpr double kWidthPx = 320;
+
+}  // namespace
+
+ImageMotion::ImageMotion(const Camera& camera)
+    : scale_(kWidthPx / camera.width_px),
+      focal_px_(camera.pinhole.focal_x_px * scale_),
+      principal_y_px_(camera.pinhole.principal_y_px * scale_) {}
 
 std::optional<MovedImage> ImageMotion::to(const cv::Mat& gray) {
   const cv::Mat now = horizon_of(gray);

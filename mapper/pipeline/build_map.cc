@@ -247,8 +247,8 @@ class MapBuild {
                                            const WitnessedPlace& place) {
         log_.add(*drive.drive, place);
         survey_.add(*drive.drive, recorded.filename, stretch_number, adjusted);
-        headings.push_back(
-            {recorded.timestamp_s, recorded.heading_deg, adjusted.heading_rad * kDegPerRad});
+        headings.push_back({recorded.timestamp_s, recorded.heading_deg,
+                            adjusted.heading_rad * kDegPerRad, recorded.position});
       };
       for (const StretchPlan& stretch : drive.stretches) {
         const Status done =

@@ -77,19 +77,20 @@ class OnTheStreet(ByOthers):
         self.expect_refused(self.run_import("exif", "--images", self.frames, "--camera", self.camera), 1, "EXIF data have no time")
 
     def video(self, *words):
+        """Five frames a second; the drive was as fast."""
+        for i, pose in enumerate(self.at_frames):
+            pose.time_s = EPOCH_S + 1000 + i / 5
+        self.poses = self.at_frames
+        self.lon_lat_h = converted([pose.enu_m for pose in self.poses], *self.degrees_from_enu)
         file = self.folder / "street.mp4"
-        elapsed = [b.time_s - a.time_s for a, b in zip(self.at_frames, self.at_frames[1:])]
-        pictures = self.folder / "pictures.txt"
-        pictures.write_text("".join(f"file '{(self.frames / row['filename']).resolve()}'\nduration {duration:.6f}\n"
-                                    for row, duration in zip(self.rows, [*elapsed, elapsed[-1]])))
-        call("ffmpeg", "-loglevel", "error", "-f", "concat", "-safe", 0, "-i", pictures, "-fps_mode", "vfr", "-c:v", "libx264",
-             "-crf", 4, "-pix_fmt", "yuv420p", "-video_track_timescale", 90000, *words, "-y", file)
+        call("ffmpeg", "-loglevel", "error", "-framerate", 5, "-i", self.frames / "%06d.jpg", "-c:v", "libx264", "-crf", 4,
+             "-pix_fmt", "yuv420p", *words, "-y", file)
         return file
 
     def test_video(self):
+        plain = self.video()
         begin_s = self.at_frames[0].time_s
         words = ("--trajectory", self.degrees_table(), "--camera", self.camera)
-        plain = self.video()
         self.expect_done(self.run_import("csv", "--images", plain, *words, "--time-offset-s", begin_s))
         rows = rows_of(self.drive / "trajectory.csv")
         self.assertEqual(len(rows), len(self.rows))
@@ -115,7 +116,7 @@ class OnTheStreet(ByOthers):
         upright = self.video()
         side = self.folder / "side.mp4"
         call("ffmpeg", "-loglevel", "error", "-i", upright, "-vf", "transpose=1", "-c:v", "libx264", "-crf", 4,
-             "-fps_mode", "vfr", "-video_track_timescale", 90000, self.folder / "turned.mp4")
+             self.folder / "turned.mp4")
         call("ffmpeg", "-loglevel", "error", "-i", self.folder / "turned.mp4", "-c", "copy", "-metadata:s:v", "rotate=90", side)
         self.expect_done(self.run_import("csv", "--images", side, "--trajectory", self.degrees_table(), "--camera", self.camera,
                                          "--time-offset-s", self.at_frames[0].time_s))

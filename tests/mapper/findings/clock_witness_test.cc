@@ -23,10 +23,16 @@ std::vector<WitnessedHeading> headings(const std::function<double(double)>& head
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 0.05);
   std::vector<WitnessedHeading> all;
+  const LocalFrame local({49, 8.4, 100});
+  EnuPoint at{0, 0, 0};
   for (int i = 0; i < 60; ++i) {
     const double at_s = kIntervalS * i;
     all.push_back({at_s, wrapped_360(heading_deg(at_s + late_s)),
-                   wrapped_360(heading_deg(at_s) + 2 + noise(random))});  // yawed by 2 degrees
+                   wrapped_360(heading_deg(at_s) + 2 + noise(random)),  // yawed by 2 degrees
+                   local.geo_from_enu(at)});
+    const double course_rad = heading_deg(at_s + late_s + kIntervalS / 2) * kRadPerDeg;
+    at.east_m += std::sin(course_rad);
+    at.north_m += std::cos(course_rad);
   }
   return all;
 }
@@ -49,6 +55,14 @@ TEST(ClockWitness, ARecordInTimeIsLeftAlone) {
 TEST(ClockWitness, AStraightDriveTellsNothing) {
   const auto straight = [](double at_s) { return 90 + 0.3 * at_s; };
   EXPECT_FALSE(clock_offset_s(headings(straight, 1)).has_value());
+}
+
+// As of a receiver that tells its course late: its positions are in time.
+TEST(ClockWitness, HeadingsThatAloneAreLateAreNoOffset) {
+  std::vector<WitnessedHeading> late = headings(winds, 0.8);
+  const std::vector<WitnessedHeading> in_time = headings(winds, 0);
+  for (std::size_t i = 0; i < late.size(); ++i) late[i].position = in_time[i].position;
+  EXPECT_FALSE(clock_offset_s(late).has_value());
 }
 
 // Headings that vary, or are wrong in another way, are no matter of time.
