@@ -78,7 +78,7 @@ bool go_with_positions(std::vector<WitnessedHeading> headings, double earlier_s)
 
 std::optional<double> clock_offset_s(std::vector<WitnessedHeading> headings) {
   constexpr std::size_t kFewest = 20;
-  constexpr double kMaxOffsetS = 2;
+  constexpr double kMaxOffsetS = 1;
   constexpr double kLeastTurnDeg = 5;  // altogether
   constexpr double kLeastOffDeg = 0.15;
   constexpr double kBetter = 0.6;
@@ -105,8 +105,10 @@ std::optional<double> clock_offset_s(std::vector<WitnessedHeading> headings) {
     best_deg = *left;
     best_s = i * step_s;
   }
-  const bool is_found = std::abs(best_s) >= interval_s / 2 && best_deg < kBetter * *as_recorded &&
-                        go_with_positions(headings, best_s);
+  // One at the end of what was tried would go on beyond it.
+  const bool is_within = std::abs(best_s) <= 0.9 * kMaxOffsetS;
+  const bool is_found = is_within && std::abs(best_s) >= interval_s / 2 &&
+                        best_deg < kBetter * *as_recorded && go_with_positions(headings, best_s);
   return is_found ? std::optional(best_s) : std::nullopt;
 }
 

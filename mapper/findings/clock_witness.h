@@ -19,8 +19,8 @@ struct WitnessedHeading {
 
 // How much later the recorded poses are than the images: the offset by which the recorded headings,
 // moved back, go best with the adjusted ones. Nothing if they go as well as they are, if the drive
-// hardly turns, or if they do not go best with the recorded positions as they are: then they alone
-// are wrong, and not the clock. Headings in any order.
+// hardly turns, if the offset is 0.9 s or more, or if they do not go best with the recorded
+// positions as they are: then they alone are wrong, and not the clock. Headings in any order.
 std::optional<double> clock_offset_s(std::vector<WitnessedHeading> headings);
 
 // The drive with the poses that its record has so much earlier; frames without one are left out.

@@ -52,6 +52,10 @@ TEST(ClockWitness, ARecordInTimeIsLeftAlone) {
   EXPECT_FALSE(clock_offset_s({}).has_value());
 }
 
+TEST(ClockWitness, AnOffsetBeyondWhatIsTriedIsNotTaken) {
+  EXPECT_FALSE(clock_offset_s(headings(winds, 1.4)).has_value());
+}
+
 TEST(ClockWitness, AStraightDriveTellsNothing) {
   const auto straight = [](double at_s) { return 90 + 0.3 * at_s; };
   EXPECT_FALSE(clock_offset_s(headings(straight, 1)).has_value());
