@@ -136,7 +136,7 @@ class MapReport(CommandTest):
             self.assertIn("Chosen: 20 to 30 m", facts)
             self.assertIn("0.180\u00a0m, assumed" if "0.180" in facts else "0.18\u00a0m, assumed", facts)
             shown = page.ask("return plots.filter(({spec}) => Array.isArray(spec.frames)).map(({spec}) => spec.frames)")
-            self.assertEqual(shown, [[first, end]] * 3)
+            self.assertEqual(shown, [[first, end]] * 4)
         page.mouse("mouseMoved", 5, 5)
         self.assertIsNone(page.readout())
 
