@@ -5,16 +5,14 @@
 #include <optional>
 #include <vector>
 
+#include "mapper/geodata/trajectory.h"
 #include "schema/drive/drive.h"
-#include "schema/geo/geodesy.h"
 
 namespace milepost {
 
 struct WitnessedHeading {
-  double timestamp_s = 0;
-  double recorded_deg = 0;
+  RecordedPose recorded;
   double adjusted_deg = 0;  // by the images; turned by the camera's mounting, whatever that is
-  GeoPoint position;        // as recorded
 };
 
 // How much later the recorded poses are than the images: the offset by which the recorded headings,

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "mapper/geodata/trajectory.h"
 #include "mapper/import/recording.h"
-#include "mapper/import/trajectory.h"
 #include "schema/base/result.h"
 #include "schema/geo/camera.h"
 

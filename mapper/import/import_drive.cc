@@ -6,10 +6,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "mapper/geodata/datum_transform.h"
+#include "mapper/geodata/trajectory.h"
 #include "mapper/import/clock_offset.h"
 #include "mapper/import/drive_images.h"
 #include "mapper/import/image_times.h"
-#include "mapper/import/trajectory.h"
 #include "schema/base/digits.h"
 #include "schema/base/file.h"
 #include "schema/drive/image_decode.h"

@@ -9,18 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "mapper/geodata/trajectory.h"
 #include "schema/base/result.h"
 #include "schema/geo/camera.h"
 #include "schema/geo/datum.h"
 #include "schema/geo/mounting.h"
 
 namespace milepost {
-
-// Of the vehicle's reference point, or of the camera, as the layout records it.
-struct RecordedPose {
-  double timestamp_s = 0;
-  GeoAttitude attitude;
-};
 
 struct RecordedImage {
   std::filesystem::path file;  // of an image in a container: its name, without a folder

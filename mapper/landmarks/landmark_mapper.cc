@@ -41,8 +41,12 @@ LandmarkMapper::LandmarkMapper(const Camera& camera, const LandmarkSettings& set
       vehicles_ahead_(settings.vehicles_ahead, camera.pinhole) {}
 
 void LandmarkMapper::add_frame(const Frame& frame, double along_m) {
-  frames_.push_back({along_m, frame.position, frame.heading_deg * kRadPerDeg,
-                     frame.pitch_deg * kRadPerDeg, frame.roll_deg * kRadPerDeg});
+  frames_.push_back({along_m,
+                     frame.position,
+                     frame.heading_deg * kRadPerDeg,
+                     frame.pitch_deg * kRadPerDeg,
+                     frame.roll_deg * kRadPerDeg,
+                     {}});
 }
 
 void LandmarkMapper::add_tracks(const std::vector<Track>& tracks) {
@@ -53,7 +57,7 @@ void LandmarkMapper::add_tracks(const std::vector<Track>& tracks) {
       if (observation.along_m < frames_.front().along_m) continue;
       const auto frame =
           std::lower_bound(frames_.begin(), frames_.end(), observation.along_m,
-                           [](const RecordedPose& pose, double m) { return pose.along_m < m; });
+                           [](const AdjustedFrame& at, double m) { return at.along_m < m; });
       waiting.observations.push_back({static_cast<std::size_t>(frame - frames_.begin()),
                                       {observation.feature.x_px, observation.feature.y_px},
                                       observation.feature.magnification});
@@ -98,7 +102,7 @@ void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after) {
   std::vector<CameraPose> poses;
   poses.reserve(frames);
   for (std::size_t i = 0; i < frames; ++i) {
-    const RecordedPose& recorded = frames_[i];
+    const AdjustedFrame& recorded = frames_[i];
     const EnuPoint at = local.enu_from_geo(recorded.position);
     poses.push_back({{at.east_m, at.north_m, at.up_m},
                      recorded.heading_rad,
@@ -118,8 +122,8 @@ void LandmarkMapper::finalize(std::size_t frames, std::size_t final_after) {
     frames_[i].heading_rad = pose.heading_rad;
     frames_[i].pitch_rad = pose.pitch_rad;
     frames_[i].roll_rad = pose.roll_rad;
-    adjusted_.push_back({frames_[i].along_m, frames_[i].position, pose.heading_rad, pose.pitch_rad,
-                         pose.roll_rad, witness[i - final_]});
+    frames_[i].witness = witness[i - final_];
+    adjusted_.push_back(frames_[i]);
   }
   final_ = final_after;
   for (PendingTrack& track : tracks_) {

@@ -43,7 +43,7 @@ struct MappedLandmark {
       0;  // where it was mapped, in the middle of its range: right of the segment's line
 };
 
-// A frame with its final pose, and what the images say of the recorded one.
+// A frame with its pose, recorded at first, and what the images say of that.
 struct AdjustedFrame {
   double along_m = 0;
   GeoPoint position;
@@ -71,13 +71,6 @@ class LandmarkMapper {
   std::vector<AdjustedFrame> take_adjusted() { return std::exchange(adjusted_, {}); }
 
  private:
-  struct RecordedPose {
-    double along_m = 0;
-    GeoPoint position;
-    double heading_rad = 0;
-    double pitch_rad = 0;
-    double roll_rad = 0;
-  };
   struct PendingTrack {
     FeatureTrack observations;  // frame indices relative to the first kept frame
     std::vector<double> scales_px;
@@ -97,9 +90,9 @@ class LandmarkMapper {
 
   Pinhole camera_;
   LandmarkSettings settings_;
-  std::vector<RecordedPose> frames_;  // kept frames
-  std::size_t final_ = 0;             // number of frames_ with final poses
-  std::vector<PendingTrack> tracks_;  // in the order of their ends
+  std::vector<AdjustedFrame> frames_;  // kept frames; recorded poses beyond the final ones
+  std::size_t final_ = 0;              // number of frames_ with final poses
+  std::vector<PendingTrack> tracks_;   // in the order of their ends
   std::vector<AdjustedFrame> adjusted_;
   VehiclesAhead vehicles_ahead_;
   std::deque<Placed> placed_;  // until it is known what is seen of vehicles after them

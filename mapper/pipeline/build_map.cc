@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -247,8 +248,8 @@ class MapBuild {
                                            const WitnessedPlace& place) {
         log_.add(*drive.drive, place);
         survey_.add(*drive.drive, recorded.filename, stretch_number, adjusted);
-        headings.push_back({recorded.timestamp_s, recorded.heading_deg,
-                            adjusted.heading_rad * kDegPerRad, recorded.position});
+        headings.push_back({{recorded.timestamp_s, {recorded.position, recorded.heading_deg}},
+                            adjusted.heading_rad * kDegPerRad});
       };
       for (const StretchPlan& stretch : drive.stretches) {
         const Status done =
@@ -272,6 +273,10 @@ class MapBuild {
     const auto headings = headings_.find(drive.name);
     return headings == headings_.end() ? std::nullopt : clock_offset_s(headings->second);
   }
+
+  // A copy of another drive is not.
+  bool is_mapped(const Drive& drive) const { return headings_.contains(drive.name); }
+  const std::vector<Finding>& findings() const { return report_.findings; }
 
   // Makes one map of all drives' landmarks.
   Status fuse(const std::filesystem::path& map_file) {
@@ -350,26 +355,29 @@ Result<BuildReport> build_map(const std::vector<Drive>& drives,
     return prepared.ok() ? build.survey(jobs, on_progress) : prepared;
   };
   const auto published = [&](MapBuild& build,
-                             const std::vector<Finding>& late) -> Result<BuildReport> {
+                             const std::vector<Finding>& found) -> Result<BuildReport> {
     if (const Status fused = build.fuse(map_file); !fused.ok()) return fused.error();
-    return build.publish(late);
+    return build.publish(found);
   };
   std::vector<Drive> on_time;
-  std::vector<Finding> late;
+  std::vector<Finding> found;
   {
     MapBuild build(drives, settings, checks);
     if (const Status status = surveyed(build); !status.ok()) return status.error();
     for (const Drive& drive : drives) {
+      if (!build.is_mapped(drive)) continue;  // moved, the other would be no copy of it any more
       const auto late_s = build.poses_late_s(drive);
-      if (late_s) late.push_back(late_poses(drive, *late_s));
+      if (late_s) found.push_back(late_poses(drive, *late_s));
       on_time.push_back(late_s ? with_poses_of(drive, *late_s) : drive);
     }
-    if (late.empty()) return published(build, late);
+    if (found.empty()) return published(build, found);
+    std::ranges::copy_if(build.findings(), std::back_inserter(found),
+                         [](const Finding& finding) { return finding.kind == "copied_drive"; });
   }
   // Once more, with each image at the pose of its time.
   MapBuild again(on_time, settings, checks);
   if (const Status status = surveyed(again); !status.ok()) return status.error();
-  return published(again, late);
+  return published(again, found);
 }
 
 }  // namespace milepost

@@ -1,12 +1,10 @@
 """Cameras with lenses, mounted beside the point whose positions are recorded: mapped and localized as a pinhole is."""
 import json
-import os
 import shutil
 import unittest
 
-from commands import CLIENT, MAPPER, CommandTest, rows_of, run
+from commands import CLIENT, MAPPER, SIMULATOR, CommandTest, rows_of, run
 
-SIMULATOR = os.environ.get("MILEPOST_SIMULATOR", "")
 MOUNTING = {"forward_m": 1.2, "right_m": 0.3, "up_m": 0.2, "yaw_deg": 3, "pitch_deg": 0, "roll_deg": 0}
 BROWN = {"model": "brown-conrady", "k1": -0.28, "k2": 0.07, "p1": 0.0005, "p2": -0.0003, "k3": 0}
 # Of 120 m of this street a pinhole gives 4.1 and 5.3 mm.

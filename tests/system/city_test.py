@@ -2,16 +2,14 @@
 """Two drives of a small city make one map, on which a tour passes every junction without a receiver."""
 import csv
 import json
-import os
 import pathlib
 import shutil
 import statistics
 import tempfile
 import unittest
 
-from commands import CLIENT, MAPPER, CommandTest, Server, rows_of, run
+from commands import CLIENT, MAPPER, SIMULATOR, CommandTest, Server, rows_of, run
 
-SIMULATOR = os.environ["MILEPOST_SIMULATOR"]
 
 
 class City(CommandTest):

@@ -1,13 +1,11 @@
 """Global localization without a GNSS receiver: footprints -> walls -> server -> client, on the simulated street."""
 import json
 import math
-import os
 import re
 
 import commands
-from commands import CLIENT, CommandTest, MAPPER, STREET, Server, report_data, rows_of, run
+from commands import CLIENT, CommandTest, MAPPER, SIMULATOR, STREET, Server, report_data, rows_of, run
 
-SIMULATOR = os.environ.get("MILEPOST_SIMULATOR", "")
 COLUMNS = ["timestamp_s", "filename", "status", "latitude_deg", "longitude_deg", "heading_deg", "sigma_m", "latency_ms"]
 MORE_COLUMNS = ["mass", "explained"]
 FOUND = {"tracking", "predicted"}

@@ -27,9 +27,8 @@ std::vector<WitnessedHeading> headings(const std::function<double(double)>& head
   EnuPoint at{0, 0, 0};
   for (int i = 0; i < 60; ++i) {
     const double at_s = kIntervalS * i;
-    all.push_back({at_s, wrapped_360(heading_deg(at_s + late_s)),
-                   wrapped_360(heading_deg(at_s) + 2 + noise(random)),  // yawed by 2 degrees
-                   local.geo_from_enu(at)});
+    all.push_back({{at_s, {local.geo_from_enu(at), wrapped_360(heading_deg(at_s + late_s))}},
+                   wrapped_360(heading_deg(at_s) + 2 + noise(random))});  // yawed by 2 degrees
     const double course_rad = heading_deg(at_s + late_s + kIntervalS / 2) * kRadPerDeg;
     at.east_m += std::sin(course_rad);
     at.north_m += std::cos(course_rad);
@@ -65,7 +64,8 @@ TEST(ClockWitness, AStraightDriveTellsNothing) {
 TEST(ClockWitness, HeadingsThatAloneAreLateAreNoOffset) {
   std::vector<WitnessedHeading> late = headings(winds, 0.8);
   const std::vector<WitnessedHeading> in_time = headings(winds, 0);
-  for (std::size_t i = 0; i < late.size(); ++i) late[i].position = in_time[i].position;
+  for (std::size_t i = 0; i < late.size(); ++i)
+    late[i].recorded.attitude.position = in_time[i].recorded.attitude.position;
   EXPECT_FALSE(clock_offset_s(late).has_value());
 }
 
@@ -74,7 +74,7 @@ TEST(ClockWitness, NoiseIsNoOffset) {
   std::vector<WitnessedHeading> noisy = headings(winds, 0);
   std::mt19937 random(6);
   std::normal_distribution<double> noise(0, 5);
-  for (WitnessedHeading& heading : noisy) heading.recorded_deg += noise(random);
+  for (WitnessedHeading& heading : noisy) heading.recorded.attitude.heading_deg += noise(random);
   EXPECT_FALSE(clock_offset_s(noisy).has_value());
 }
 

@@ -4,9 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "mapper/import/recording.h"
+#include "schema/geo/mounting.h"
 
 namespace milepost {
+
+// Of the vehicle's reference point, or of the camera, as the layout records it.
+struct RecordedPose {
+  double timestamp_s = 0;
+  GeoAttitude attitude;
+};
 
 // A time without poses.
 struct TrajectoryGap {

@@ -1,4 +1,4 @@
-#include "mapper/import/trajectory.h"
+#include "mapper/geodata/trajectory.h"
 
 #include <gtest/gtest.h>
 
