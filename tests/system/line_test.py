@@ -66,7 +66,8 @@ class MapFile:
             self.store = store
             self.meta = dict(store.execute("SELECT key, value FROM meta"))
             self.manifest = {"areas": self.listed({"cells": self.cells()}), "format": 3,
-                             "map": self.listed(self.summary()), "segments": self.segments()}
+                             "map": self.listed(self.summary()), "mapping": self.listed(json.loads(self.meta["mapping"])),
+                             "segments": self.segments()}
 
     def listed(self, document):
         content = canonical(document).encode()
