@@ -179,7 +179,8 @@ std::string found_csv(const std::vector<FoundFrame>& frames) {
   return csv.text();
 }
 
-std::string summary_line(const std::vector<FoundFrame>& frames, const std::string& out) {
+std::string summary_line(const std::vector<FoundFrame>& frames, const std::string& out,
+                         const Datum& datum) {
   std::size_t tracked = 0;
   std::string since = "the vehicle was not found";
   for (const FoundFrame& frame : frames) {
@@ -189,7 +190,8 @@ std::string summary_line(const std::vector<FoundFrame>& frames, const std::strin
         "found after " + fixed(frame.fix.timestamp_s - frames.front().fix.timestamp_s, 1) + " s";
   }
   return out + ": " + since + ", " + std::to_string(tracked) + " of " +
-         std::to_string(frames.size()) + " frames tracked";
+         std::to_string(frames.size()) + " frames tracked" +
+         (datum.is_stated() ? ", positions of " + datum.text() : "");
 }
 
 void add_options(CLI::App& app, Options& options) {
@@ -255,6 +257,11 @@ int find(const std::string& program, const Options& options) {
   if (!source) return fail(program, source.error());
   const Result<MapDescription> map = map_to_search(**source, options);
   if (!map) return fail(program, map.error());
+  if (!options.report.empty()) {
+    const Status same = check_agree(drive->datum, (drive->folder / "drive.json").string(),
+                                    map->datum, "map '" + map->version.map + "'");
+    if (!same) return fail(program, same.error());
+  }
   const Result<std::vector<Wall>> walls = walls_to_search(**source, *map, options);
   if (!walls) return fail(program, walls.error());
   const Result<std::optional<Backdrop>> backdrop = backdrop_of(options, *walls);
@@ -294,7 +301,7 @@ int find(const std::string& program, const Options& options) {
     written = write_text_file(options.report, report_page(find_report_data(input)));
   }
   if (!written.ok()) return fail(program, written.error());
-  report_stream(options.out) << summary_line(found->frames, options.out) << "\n";
+  report_stream(options.out) << summary_line(found->frames, options.out, map->datum) << "\n";
   return found->outage ? fail(program, *found->outage) : kExitDone;
 }
 

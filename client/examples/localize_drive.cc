@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
   std::size_t next_odometry = 0;
   std::size_t tracked = 0;
   std::size_t frames = 0;
+  std::string datum;
   for (const Row& frame : rows_of(drive + "/trajectory.csv")) {
     const std::string& filename = frame.at(0);
     const double timestamp_s = std::stod(frame.at(1));
@@ -136,13 +137,15 @@ int main(int argc, char** argv) {
     if (fix->pose) {
       std::printf("  at %.8f %.8f heading %.2f", fix->pose->latitude_deg, fix->pose->longitude_deg,
                   fix->pose->heading_deg);
+      datum = fix->datum;
     }
     std::printf("\n");
     if (fix->status == vehicle::FixStatus::tracking) ++tracked;
   }
 
   // 6. How much of the road ahead could be driven without a network.
-  std::printf("%zu of %zu frames tracked; map held for another %.0f m\n", tracked, frames,
-              localizer->map_ahead().held_m);
+  std::printf("%zu of %zu frames tracked; map held for another %.0f m; positions of %s\n", tracked,
+              frames, localizer->map_ahead().held_m,
+              datum.empty() ? "a frame that the map does not state" : datum.c_str());
   return tracked > 0 ? 0 : 1;
 }

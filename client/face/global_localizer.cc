@@ -86,8 +86,12 @@ Result<MapDescription> map_to_search(MapSource& source, const std::string& name)
                "it has no layer walls", "add it with milepost-mapper aerial"};
 }
 
-Result<std::vector<Wall>> walls_to_search(MapSource& source,
-                                          const GlobalLocalizerSettings& settings) {
+struct WallsToSearch {
+  std::vector<Wall> walls;
+  Datum datum;
+};
+
+Result<WallsToSearch> walls_to_search(MapSource& source, const GlobalLocalizerSettings& settings) {
   const Result<MapDescription> map = map_to_search(source, settings.map);
   if (!map) return map.error();
   const Bounds area = settings.area ? bounds_of(*settings.area) : map->bounds;
@@ -97,7 +101,7 @@ Result<std::vector<Wall>> walls_to_search(MapSource& source,
     return Error{ErrorCode::not_found, "map '" + map->version.map + "'",
                  "there are no walls in the area", "pass a larger area"};
   }
-  return std::move(*walls);
+  return WallsToSearch{std::move(*walls), map->datum};
 }
 
 }  // namespace
@@ -119,6 +123,7 @@ const char* name_of(GlobalStatus status) {
 struct GlobalLocalizer::Impl {
   Camera camera;
   milepost::GlobalLocalizer localizer;
+  std::string datum;
   std::optional<double> latest_image_s;
 };
 
@@ -135,15 +140,16 @@ Result<GlobalLocalizer> GlobalLocalizer::open(const Source& source, const Camera
   const auto hurried =
       (*opened)->until([&] { return is_over() || (patience.cancelled && patience.cancelled()); },
                        MapSource::Asking::as_often_as_set);
-  const Result<std::vector<Wall>> walls = walls_to_search(*hurried, settings);
-  if (!walls && walls.error().code == ErrorCode::cancelled && is_over()) {
-    return Error{ErrorCode::timed_out, walls.error().where, "the walls did not arrive in time",
+  const Result<WallsToSearch> found = walls_to_search(*hurried, settings);
+  if (!found && found.error().code == ErrorCode::cancelled && is_over()) {
+    return Error{ErrorCode::timed_out, found.error().where, "the walls did not arrive in time",
                  "wait longer"};
   }
-  if (!walls) return walls.error();
+  if (!found) return found.error();
   return GlobalLocalizer(std::make_unique<Impl>(
       Impl{camera,
-           milepost::GlobalLocalizer(*walls, plain_camera_of(camera), internal_of(settings)),
+           milepost::GlobalLocalizer(found->walls, plain_camera_of(camera), internal_of(settings)),
+           found->datum.text(),
            {}}));
 }
 
@@ -157,6 +163,8 @@ Status GlobalLocalizer::observe(const OdometryReading& reading) {
   impl_->localizer.observe(Odometry{reading.timestamp_s, reading.speed_mps, reading.yaw_rate_dps});
   return {};
 }
+
+const std::string& GlobalLocalizer::datum() const { return impl_->datum; }
 
 Result<GlobalFix> GlobalLocalizer::find(double timestamp_s, const ImageView& image) {
   const bool is_later = std::isfinite(timestamp_s) &&

@@ -62,6 +62,8 @@ struct Localizer::Impl {
     return features;
   }
 
+  // REQUIRES: the mutex is held.
+  void remember(const milepost::Fix& fix);
   Fix face_of(const milepost::Fix& internal) const;
 
   Camera camera;
@@ -75,7 +77,17 @@ struct Localizer::Impl {
 
   mutable std::mutex mutex;  // guards all below
   std::optional<OnSegment> latest_place;
+  std::string datum;  // of the map that the latest pose rests on
 };
+
+void Localizer::Impl::remember(const milepost::Fix& fix) {
+  latest_place.reset();
+  if (!fix.along_m) return;
+  latest_place = OnSegment{{fix.version, fix.segment}, *fix.along_m};
+  const auto held = localizer.provider().held();
+  const HeldSegment* segment = held->find(latest_place->key);
+  if (segment != nullptr && segment->layer) datum = segment->layer->build->datum.text();
+}
 
 Fix Localizer::Impl::face_of(const milepost::Fix& internal) const {
   Fix fix;
@@ -89,7 +101,10 @@ Fix Localizer::Impl::face_of(const milepost::Fix& internal) const {
   fix.sigma_map_m = internal.sigma_map_m;
   fix.lateral_m = internal.lateral_m;
   fix.lateral_sigma_m = internal.lateral_sigma_m;
-  if (internal.camera) fix.pose = vehicle_pose_of(*internal.camera, camera.mounting);
+  if (internal.camera) {
+    fix.pose = vehicle_pose_of(*internal.camera, camera.mounting);
+    fix.datum = datum;
+  }
   fix.matches = internal.matches;
   return fix;
 }
@@ -178,12 +193,12 @@ Result<Fix> Localizer::localize(double timestamp_s, const ImageView& image) {
   const milepost::Result<milepost::Fix> fix = impl_->localizer.localize(frame);
   if (!fix) return error_of(fix.error());
   const std::lock_guard lock(impl_->mutex);
-  impl_->latest_place.reset();
-  if (fix->along_m) impl_->latest_place = OnSegment{{fix->version, fix->segment}, *fix->along_m};
+  impl_->remember(*fix);
   return impl_->face_of(*fix);
 }
 
 Fix Localizer::fix_at(double timestamp_s) const {
+  const std::lock_guard lock(impl_->mutex);
   return impl_->face_of(impl_->localizer.fix_at(timestamp_s));
 }
 

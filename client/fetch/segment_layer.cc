@@ -22,7 +22,7 @@ Result<std::shared_ptr<const BuildLayer>> read_build_layer(MapSource& source,
     return error;
   }
   if (!map->feature) return map->feature.error();
-  return std::make_shared<const BuildLayer>(BuildLayer{*map->feature, *parameters});
+  return std::make_shared<const BuildLayer>(BuildLayer{*map->feature, *parameters, map->datum});
 }
 
 Result<std::shared_ptr<const SegmentLayer>> read_segment_layer(

@@ -19,6 +19,7 @@ namespace milepost {
 struct BuildLayer {
   FeatureParameters feature;  // of the map's descriptors
   LayerParameters parameters;
+  Datum datum = {};  // of the map's positions
 };
 
 struct SegmentLayer {

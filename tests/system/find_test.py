@@ -39,6 +39,12 @@ class Find(CommandTest):
                  origin["longitude_deg"] + float(row["east_m"]) / (east_m_per_deg * 1.0023), float(row["heading_deg"]))
                 for row in rows_of(self.query / "trajectory.csv")]
 
+    def with_datum(self, name, datum):
+        drive = self.copy_of(STREET / name, name)
+        description = json.loads((drive / "drive.json").read_text())
+        (drive / "drive.json").write_text(json.dumps({**description, "datum": datum}))
+        return drive
+
     def errors_m(self, rows):
         errors = []
         for row, (latitude, longitude, _) in zip(rows, self.truth()):
@@ -79,10 +85,12 @@ class Find(CommandTest):
         self.assertEqual(from_server, from_file)
 
     def test_what_is_found_starts_the_route_localizer(self):
-        self.expect_done(self.build(STREET / "street-map", self.map))
+        self.expect_done(self.build(self.with_datum("street-map", "ITRF2014@2020.5"), self.map))
         self.make_walls()
         localized = self.folder / "localized.csv"
-        self.expect_done(self.find("--map", self.map, *self.start_words(), "--localize-out", localized))
+        found = self.find("--map", self.map, *self.start_words(), "--localize-out", localized)
+        self.expect_done(found)
+        self.assertRegex(found.stdout, r" frames tracked, positions of ITRF2014@2020.5\n$")
         rows = rows_of(localized)
         found = [row["status"] in FOUND for row in rows_of(self.fixes)]
         self.assertIn(True, found)
@@ -92,6 +100,10 @@ class Find(CommandTest):
         self.assertGreater(len(tracked), 3)
         for row in tracked[1:]:
             self.assertLess(float(row["sigma_m"]), 0.3)
+        # A report compares with the recorded positions, which are of another datum.
+        self.query = self.with_datum("street-query", "ETRF2000")
+        self.expect_refused(self.find("--map", self.map, "--report", self.folder / "report.html"), 1,
+                            "of ETRF2000, those of map 'street' of ITRF2014@2020.5")
 
     def test_the_report_is_a_page_of_its_own(self):
         self.make_walls()

@@ -86,6 +86,10 @@ class MILEPOST_PUBLIC GlobalLocalizer {
   // Errors: invalid_input (the image or its timestamp, as Localizer::localize).
   Result<GlobalFix> find(double timestamp_s, const ImageView& image);
 
+  // Of the fixes' positions: the reference frame that the map states, with the epoch where one is
+  // stated ("ITRF2014@2020.5"). Empty: the map states none.
+  const std::string& datum() const;
+
  private:
   struct MILEPOST_HIDDEN Impl;
   explicit GlobalLocalizer(std::unique_ptr<Impl> impl);

@@ -53,7 +53,10 @@ struct Fix {
   std::optional<double> lateral_m;
   std::optional<double> lateral_sigma_m;  // one standard deviation, in the world
   std::optional<Pose> pose;               // of the vehicle's reference point
-  int matches = 0;                        // number of inlier landmarks of the measurement
+  // Of the pose: the reference frame that the map states for its positions, with the epoch where
+  // one is stated ("ITRF2014@2020.5"). Empty: the map states none, or there is no pose.
+  std::string datum;
+  int matches = 0;  // number of inlier landmarks of the measurement
 };
 
 // A range of road ahead whose map data is not held, and why.

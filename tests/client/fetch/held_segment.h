@@ -27,8 +27,8 @@ inline std::shared_ptr<const SegmentLayer> layer_of(const SegmentKey& key, const
     index.push_back(entry);
   }
   return std::make_shared<const SegmentLayer>(SegmentLayer{
-      key, "layer", std::make_shared<const BuildLayer>(BuildLayer{{}, std::move(parameters)}), line,
-      std::move(index)});
+      key, "layer", std::make_shared<const BuildLayer>(BuildLayer{{}, std::move(parameters), {}}),
+      line, std::move(index)});
 }
 
 inline HeldMap held_map(std::shared_ptr<const SegmentLayer> layer,

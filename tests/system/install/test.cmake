@@ -71,9 +71,17 @@ list(TRANSFORM static REPLACE "^-lmilepost$" "-l:libmilepost.a")
 run(${CXX} -std=c++17 ${consumer}/main.cc -o ${WORK}/by_pkg_config_static ${static})
 run(${WORK}/by_pkg_config_static ${WORK})
 
-# The example, on a map of the street.
+# The example, on a map of the street that states its datum.
 run(${CMAKE_COMMAND} -S ${SOURCE}/client/examples -B ${WORK}/example -G Ninja
   -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${WORK}/example)
-run(${prefix}/bin/milepost-mapper build --drive ${STREET}/street-map --map ${WORK}/street.map)
-run(${WORK}/example/localize_drive ${STREET}/street-query ${WORK}/street.map)
+file(COPY ${STREET}/street-map DESTINATION ${WORK})
+file(READ ${WORK}/street-map/drive.json drive)
+string(REGEX REPLACE "^{" "{\"datum\": \"ITRF2014@2020.5\"," drive "${drive}")
+file(WRITE ${WORK}/street-map/drive.json "${drive}")
+run(${prefix}/bin/milepost-mapper build --drive ${WORK}/street-map --map ${WORK}/street.map)
+execute_process(COMMAND ${WORK}/example/localize_drive ${STREET}/street-query ${WORK}/street.map
+  OUTPUT_VARIABLE fixes COMMAND_ERROR_IS_FATAL ANY)
+if(NOT fixes MATCHES "[1-9][0-9]* of [0-9]+ frames tracked; .*; positions of ITRF2014@2020.5\n$")
+  message(FATAL_ERROR "localize_drive says\n${fixes}")
+endif()
