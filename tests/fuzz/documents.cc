@@ -8,6 +8,7 @@
 
 #include "schema/base/json.h"
 #include "schema/document/manifest.h"
+#include "schema/document/mapping_record.h"
 #include "schema/feature/pca_projection.h"
 #include "schema/feature/types.h"
 #include "tests/fuzz/check.h"
@@ -24,6 +25,13 @@ void read_manifest(std::string_view text) {
   if (!manifest) return;
   const std::string written = manifest_document(*manifest);
   fuzz::check(manifest_document(*manifest_from(written)) == written);
+}
+
+void read_mapping_record(std::string_view text) {
+  const Result<MappingRecord> record = mapping_record_from(text);
+  if (!record) return;
+  const std::string written = mapping_document(*record);
+  fuzz::check(mapping_document(*mapping_record_from(written)) == written);
 }
 
 // With the parameters of its features and layers.
@@ -67,6 +75,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 'd':
       read_manifest(text);
+      break;
+    case 'p':
+      read_mapping_record(text);
       break;
     case 's':
       read_segment(text);

@@ -1,36 +1,16 @@
 // A map file with arbitrary bytes: the reads of a client ('c' as the first byte), or of a server
 // at its start ('s').
-#include <unistd.h>
-
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 
 #include "schema/store/map_store.h"
 #include "schema/tile/codec.h"
 #include "server/catalog/served_map.h"
 #include "tests/fuzz/check.h"
+#include "tests/fuzz/scratch_file.h"
 
 namespace {
 
 using namespace milepost;
-namespace fs = std::filesystem;
-
-// In memory if the system has such a file system.
-const fs::path& map_file() {
-  static const fs::path file = [] {
-    const fs::path memory = "/dev/shm";
-    const fs::path folder = fs::is_directory(memory) ? memory : fs::temp_directory_path();
-    return folder / ("milepost-fuzz-" + std::to_string(::getpid()) + ".map");
-  }();
-  static const struct Remover {
-    ~Remover() {
-      std::error_code ignored;
-      fs::remove(map_file(), ignored);
-    }
-  } remover;
-  return file;
-}
 
 void read_segment(const MapReader& map, const std::string& id) {
   static_cast<void>(map.segment(id));
@@ -56,13 +36,13 @@ void read_cells(const MapReader& map, const std::string& layer) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  std::ofstream(map_file(), std::ios::binary | std::ios::trunc)
-      .write(reinterpret_cast<const char*>(data) + 1, static_cast<std::streamsize>(size) - 1);
+  static const fuzz::ScratchFile file(".map");
+  file.write(data + 1, size - 1);
   if (data[0] == 's') {
-    static_cast<void>(server::ServedMap::open("fuzz", map_file(), 1));
+    static_cast<void>(server::ServedMap::open("fuzz", file.path(), 1));
     return 0;
   }
-  const Result<MapReader> map = MapReader::open(map_file());
+  const Result<MapReader> map = MapReader::open(file.path());
   if (!map) return 0;
   for (const std::string& id : map->segment_ids()) read_segment(*map, id);
   for (const auto& [layer, parameters] : map->layers()) read_cells(*map, layer);

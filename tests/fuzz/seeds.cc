@@ -1,5 +1,6 @@
 // Writes well-formed inputs for each fuzz target: FOLDER/TARGET/NAME.
 // usage: fuzz-seeds FOLDER
+#include <bit>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -7,15 +8,19 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "schema/base/file.h"
+#include "schema/document/mapping_record.h"
 #include "schema/feature/types.h"
 #include "schema/store/sqlite.h"
 #include "schema/tile/codec.h"
 #include "schema/tile/zstd_frame.h"
 #include "tests/client/fetch/fake_map.h"
+#include "tests/mapper/import/ros/message_writer.h"
 #include "tests/schema/tile/example_landmarks.h"
 #include "tests/schema/tile/example_tile.h"
 #include "tests/server/test_map.h"
@@ -98,12 +103,140 @@ void write_documents(const SeedFolder& seeds) {
   seeds.write("documents", "map", "m" + map.map_document());
   seeds.write("documents", "manifest", "d" + map.manifest());
   seeds.write("documents", "segment", "s" + map.segment_document());
+  MappingRecord record;
+  record.drives = {{"monday", {130, 90000, 85000, 0.4, 0.01, 0.02, 0.03}}};
+  record.segments = {{"s1", {{0, 10, "monday", {5, 3000, 2900, 0.4, 0.01, 0.02, 0.03}}}}};
+  record.findings = {{"standstill", "monday", "trajectory.csv", "stands", "none", 3, 4}};
+  record.check_points = {{"m1", "monday", 49, 8.4, 115, 3, true, 0.01, 0.02, 0.03, 0.4}};
+  seeds.write("documents", "mapping", "p" + mapping_document(record));
   seeds.write("documents", "areas", "a" + map.areas_document());
   seeds.write("documents", "feature", "f" + to_json(FeatureParameters{}).dump());
   // A codebook whose bytes are all zero, in base64.
   seeds.write("documents", "codebook",
               R"(b{"version":"trained","step":0.02,"mean":")" + std::string(171, 'A') +
                   R"(=","axes":")" + std::string(5462, 'A') + R"(=="})");
+}
+
+ros::testing::MessageWriter message_of(ros::Serialization serialization) {
+  ros::testing::MessageWriter writer(serialization);
+  writer.header();
+  return writer;
+}
+
+Bytes image_message(ros::Serialization serialization) {
+  return message_of(serialization)
+      .number(std::uint32_t{2})
+      .number(std::uint32_t{3})
+      .text("mono8")
+      .number(std::uint8_t{0})
+      .number(std::uint32_t{3})
+      .bytes({1, 2, 3, 4, 5, 6})
+      .message();
+}
+
+Bytes fix_message(ros::Serialization serialization) {
+  return message_of(serialization)
+      .number(std::int8_t{0})
+      .number(std::uint16_t{1})
+      .doubles({49, 8.4, 115})
+      .doubles(9, 0)
+      .number(std::uint8_t{0})
+      .message();
+}
+
+std::string little_endian(std::uint64_t value, std::size_t bytes = 4) {
+  std::string text;
+  for (std::size_t i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * i & 0xff);
+  return text;
+}
+
+std::string with_length(const std::string& text) { return little_endian(text.size()) + text; }
+
+std::string ros1_record(char op, const std::vector<std::string>& fields, const std::string& data) {
+  std::string header = with_length(std::string("op=") + op);
+  for (const std::string& field : fields) header += with_length(field);
+  return with_length(header) + with_length(data);
+}
+
+// One chunk with one message.
+std::string ros1_bag() {
+  const std::string connection =
+      ros1_record(7, {"conn=" + little_endian(0), "topic=/fix"},
+                  with_length("topic=/fix") + with_length("type=sensor_msgs/NavSatFix"));
+  const Bytes fix = fix_message(ros::Serialization::ros1);
+  const std::string content =
+      connection + ros1_record(2, {"conn=" + little_endian(0), "time=" + little_endian(12, 8)},
+                               std::string(as_text(fix)));
+  const std::string chunk =
+      ros1_record(5, {"compression=none", "size=" + little_endian(content.size())}, content);
+  const std::string magic = "#ROSBAG V2.0\n";
+  const auto header = [](std::uint64_t index_at) {
+    return ros1_record(3,
+                       {"index_pos=" + little_endian(index_at, 8), "conn_count=" + little_endian(1),
+                        "chunk_count=" + little_endian(1)},
+                       "    ");
+  };
+  const std::size_t chunk_at = magic.size() + header(0).size();
+  const std::string info = ros1_record(6, {"chunk_pos=" + little_endian(chunk_at, 8)},
+                                       little_endian(0) + little_endian(1));
+  return magic + header(chunk_at + chunk.size()) + chunk + connection + info;
+}
+
+std::string ros2_bag() {
+  const server::TemporaryFolder folder;
+  const fs::path file = folder.path() / "seed.db3";
+  Result<sqlite::Database> bag = sqlite::Database::open(file, sqlite::Access::read_write);
+  const bool is_made =
+      bag.ok() &&
+      bag->execute(
+             "PRAGMA page_size = 512;"
+             "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT,"
+             " serialization_format TEXT);"
+             "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER,"
+             " data BLOB);"
+             "INSERT INTO topics VALUES(1, '/fix', 'sensor_msgs/msg/NavSatFix', 'cdr')")
+          .ok();
+  if (!is_made) std::abort();
+  auto insert = bag->prepare("INSERT INTO messages VALUES(1, 1, 12, ?)");
+  if (!insert) std::abort();
+  const Bytes fix = fix_message(ros::Serialization::cdr);
+  insert->bind(1, fix);
+  if (!insert->step()) std::abort();
+  return *read_text_file(file);
+}
+
+void write_bags(const SeedFolder& seeds) {
+  seeds.write("bags", "ros1", '1' + ros1_bag());
+  seeds.write("bags", "ros2", '2' + ros2_bag());
+  for (const auto& [kind, serialization] :
+       {std::pair('r', ros::Serialization::ros1), std::pair('d', ros::Serialization::cdr)}) {
+    for (const Bytes& message : {image_message(serialization), fix_message(serialization)}) {
+      seeds.write("bags", kind + std::to_string(message.size()),
+                  kind + std::string(as_text(message)));
+    }
+  }
+}
+
+void write_models(const SeedFolder& seeds) {
+  const auto model = [](char kind, const std::string& cameras, const std::string& images) {
+    return kind + little_endian(cameras.size(), 2) + cameras + images;
+  };
+  seeds.write("colmap", "text",
+              model('t', "7 OPENCV 640 480 500 510 320 240 -0.2 0.05 0.001 -0.002\n",
+                    "3 1 0 0 0 1 2 3 7 left/0001.png\n\n"));
+  const auto doubles = [](const std::vector<double>& values) {
+    std::string text;
+    for (const double value : values) text += little_endian(std::bit_cast<std::uint64_t>(value), 8);
+    return text;
+  };
+  seeds.write(
+      "colmap", "binary",
+      model('b',
+            little_endian(1, 8) + little_endian(7) + little_endian(1) + little_endian(640, 8) +
+                little_endian(480, 8) + doubles({500, 510, 320, 240}),
+            little_endian(1, 8) + little_endian(3) + doubles({1, 0, 0, 0, 1, 2, 3}) +
+                little_endian(7) + std::string("left/0001.png") + '\0' + little_endian(1, 8) +
+                std::string(24, 'x')));
 }
 
 // An encoded tile, and its content, as inputs of target `tiles`.
@@ -173,6 +306,8 @@ int main(int argc, char** argv) {
   const milepost::SeedFolder seeds(argv[1]);
   milepost::write_targets(seeds);
   milepost::write_documents(seeds);
+  milepost::write_bags(seeds);
+  milepost::write_models(seeds);
   milepost::write_footprints(seeds);
   milepost::write_heads(seeds);
   milepost::write_tiles(seeds);
