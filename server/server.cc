@@ -39,7 +39,7 @@ struct Server::Impl {
   }
 };
 
-Result<std::unique_ptr<Server>> Server::start(std::shared_ptr<const Catalog> catalog,
+Result<std::unique_ptr<Server>> Server::start(std::shared_ptr<const CurrentCatalog> catalog,
                                               const ServerSettings& settings) {
   error_code error;
   const net::ip::address address = net::ip::make_address(settings.address, error);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "schema/base/result.h"
-#include "server/catalog/catalog.h"
+#include "server/catalog/current_catalog.h"
 #include "server/http/settings.h"
 
 namespace milepost::server {
@@ -22,7 +22,7 @@ struct ServerSettings {
 class Server {
  public:
   // Errors: invalid_input (address), io (it cannot be listened on).
-  static Result<std::unique_ptr<Server>> start(std::shared_ptr<const Catalog> catalog,
+  static Result<std::unique_ptr<Server>> start(std::shared_ptr<const CurrentCatalog> catalog,
                                                const ServerSettings& settings);
   ~Server();  // stop()
   Server(const Server&) = delete;

@@ -22,7 +22,7 @@ constexpr std::size_t kRejected = 64;
 
 }  // namespace
 
-Listener::Listener(net::io_context& context, std::shared_ptr<const Catalog> catalog,
+Listener::Listener(net::io_context& context, std::shared_ptr<const CurrentCatalog> catalog,
                    const ConnectionLimits& limits, Sessions& sessions)
     : context_(context),
       catalog_(std::move(catalog)),

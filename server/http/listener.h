@@ -8,7 +8,7 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "schema/base/result.h"
-#include "server/catalog/catalog.h"
+#include "server/catalog/current_catalog.h"
 #include "server/http/asio.h"
 #include "server/http/sessions.h"
 #include "server/http/settings.h"
@@ -19,7 +19,7 @@ namespace milepost::server {
 class Listener : public std::enable_shared_from_this<Listener> {
  public:
   // `context` and `sessions` must outlive the listener.
-  Listener(net::io_context& context, std::shared_ptr<const Catalog> catalog,
+  Listener(net::io_context& context, std::shared_ptr<const CurrentCatalog> catalog,
            const ConnectionLimits& limits, Sessions& sessions);
 
   // Binds and listens. Errors: io (the address is not ours, or in use, or not permitted).
@@ -36,7 +36,7 @@ class Listener : public std::enable_shared_from_this<Listener> {
   void welcome(net::ip::tcp::socket socket);
 
   net::io_context& context_;
-  const std::shared_ptr<const Catalog> catalog_;
+  const std::shared_ptr<const CurrentCatalog> catalog_;
   const ConnectionLimits limits_;
   Sessions& sessions_;
   net::ip::tcp::acceptor acceptor_;

@@ -27,7 +27,7 @@ std::string_view text_of(const net::const_buffer& buffer) {
 }  // namespace
 
 Session::Session(net::ip::tcp::socket socket, Service service,
-                 std::shared_ptr<const Catalog> catalog, const ConnectionLimits& limits,
+                 std::shared_ptr<const CurrentCatalog> catalog, const ConnectionLimits& limits,
                  Sessions& sessions)
     : service_(service),
       catalog_(std::move(catalog)),
@@ -115,7 +115,7 @@ Response Session::response_to(const Incoming& incoming) const {
   }
   if (incoming.refusal) return *incoming.refusal;
   try {
-    return handle(incoming.request, *catalog_);
+    return handle(incoming.request, *catalog_->now());
   } catch (const std::exception& failure) {
     spdlog::error("{} {}: {}", incoming.request.method, incoming.request.target, failure.what());
     return problem(500, "the server failed on this request; its log says why");

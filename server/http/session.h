@@ -8,7 +8,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 
-#include "server/catalog/catalog.h"
+#include "server/catalog/current_catalog.h"
 #include "server/http/asio.h"
 #include "server/http/body_reader.h"
 #include "server/http/request_parser.h"
@@ -28,8 +28,9 @@ class Session : public std::enable_shared_from_this<Session> {
   };
 
   // `socket` must run on a strand. `sessions` must outlive the session.
-  Session(net::ip::tcp::socket socket, Service service, std::shared_ptr<const Catalog> catalog,
-          const ConnectionLimits& limits, Sessions& sessions);
+  Session(net::ip::tcp::socket socket, Service service,
+          std::shared_ptr<const CurrentCatalog> catalog, const ConnectionLimits& limits,
+          Sessions& sessions);
 
   void start();
   // May be called from any thread: closes after the response in progress, if any, is sent.
@@ -50,7 +51,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void close();
 
   const Service service_;
-  const std::shared_ptr<const Catalog> catalog_;
+  const std::shared_ptr<const CurrentCatalog> catalog_;
   const ConnectionLimits limits_;
   Sessions& sessions_;
   std::string peer_;  // address, for the log

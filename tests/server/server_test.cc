@@ -16,6 +16,10 @@
 namespace milepost::server {
 namespace {
 
+std::shared_ptr<const CurrentCatalog> served(std::shared_ptr<const Catalog> catalog) {
+  return std::make_shared<CurrentCatalog>(std::move(catalog));
+}
+
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -29,7 +33,7 @@ class ServerTest : public ::testing::Test {
     ServerSettings settings;
     settings.threads = 2;
     settings.limits = limits;
-    auto server = Server::start(open_catalog(folder_.path(), settings.threads), settings);
+    auto server = Server::start(served(open_catalog(folder_.path(), settings.threads)), settings);
     ASSERT_TRUE(server.ok()) << server.error().line();
     server_ = std::move(*server);
     port_ = server_->port();
@@ -596,7 +600,7 @@ TEST_F(ServerTest, AddressInUseIsAnError) {
   start();
   ServerSettings settings;
   settings.port = port_;
-  const auto second = Server::start(open_catalog(folder_.path()), settings);
+  const auto second = Server::start(served(open_catalog(folder_.path())), settings);
   ASSERT_FALSE(second.ok());
   EXPECT_THAT(second.error().line(), HasSubstr(server_->address() + ": cannot be listened on"));
 }
@@ -604,7 +608,7 @@ TEST_F(ServerTest, AddressInUseIsAnError) {
 TEST_F(ServerTest, AddressThatIsNoneIsAnError) {
   ServerSettings settings;
   settings.address = "localhost";
-  const auto server = Server::start(open_catalog(folder_.path()), settings);
+  const auto server = Server::start(served(open_catalog(folder_.path())), settings);
   ASSERT_FALSE(server.ok());
   EXPECT_THAT(server.error().line(),
               HasSubstr("address localhost: is not an IPv4 or IPv6 address"));

@@ -67,7 +67,8 @@ class ServedMapTest : public ::testing::Test {
     EXPECT_TRUE(catalog.ok());
     server::ServerSettings settings;
     settings.threads = 2;
-    auto started = server::Server::start(*catalog, settings);
+    auto started =
+        server::Server::start(std::make_shared<server::CurrentCatalog>(*catalog), settings);
     EXPECT_TRUE(started.ok());
     server_ = std::move(started).value();
   }
