@@ -9,6 +9,8 @@
 #include <iostream>
 #include <string>
 
+#include "server/catalog/reloader.h"
+#include "server/descriptor_limit.h"
 #include "server/log/log.h"
 #include "server/options.h"
 #include "server/server.h"
@@ -45,10 +47,11 @@ sigset_t blocked(std::initializer_list<int> numbers) {
   return signals;
 }
 
-void wait_for_stop(const sigset_t& signals) {
+void wait_for_stop(const sigset_t& signals, server::Reloader& reloader) {
   int signal = 0;
   for (sigwait(&signals, &signal); signal == SIGHUP; sigwait(&signals, &signal)) {
-    spdlog::warn("SIGHUP: the maps are not read again; restart the server to serve new ones");
+    spdlog::info("SIGHUP: looking at the maps");
+    reloader.look();
   }
   spdlog::info("stopping on {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
 }
@@ -60,16 +63,46 @@ std::string counts(const server::Catalog& catalog) {
   return '(' + maps + ", " + std::to_string(catalog.left_out()) + " left out)";
 }
 
-Status serve(const server::Options& options) {
-  const auto catalog = server::Catalog::open(
-      options.maps, options.threads, [](const std::string& line) { spdlog::warn("{}", line); });
+server::CatalogSettings catalog_settings(const server::Options& options) {
+  const server::DescriptorShares shares = server::shares_of(server::raise_descriptor_limit());
+  server::CatalogSettings settings;
+  settings.open_maps.maps = shares.open_maps;
+  settings.open_maps.readers = options.threads;
+  settings.kept.held_files = shares.held_files;
+  settings.keep = options.keep_builds;
+  settings.all_must_be_served = options.all_must_be_served;
+  return settings;
+}
+
+// A line for each map, and for each that is left out.
+Status check(const server::Options& options) {
+  const auto catalog =
+      server::Catalog::open(options.maps, catalog_settings(options), [](const std::string&) {});
   if (!catalog) return catalog.error();
+  for (const auto& [name, map] : (*catalog)->maps())
+    std::cout << name << "  build " << map->build << "  " << map->file.string() << '\n';
+  for (const auto& [file, error] : (*catalog)->left_out_files())
+    std::cout << "left out: " << error.line() << '\n';
+  std::cout << std::flush;
+  if ((*catalog)->left_out() == 0) return ok_status();
+  return Error{ErrorCode::corrupt, options.maps.string(),
+               std::to_string((*catalog)->left_out()) + " of its maps would be left out",
+               "see the list on standard output"};
+}
+
+Status serve(const server::Options& options) {
+  const auto opened =
+      server::Catalog::open(options.maps, catalog_settings(options),
+                            [](const std::string& line) { spdlog::warn("{}", line); });
+  if (!opened) return opened.error();
+  const auto catalog = std::make_shared<server::CurrentCatalog>(*opened);
   const sigset_t signals = blocked({SIGHUP, SIGINT, SIGTERM});
-  const auto running = server::Server::start(std::make_shared<server::CurrentCatalog>(*catalog),
-                                             {options.address, options.port, options.threads, {}});
+  const auto running =
+      server::Server::start(catalog, {options.address, options.port, options.threads, {}});
   if (!running) return running.error();
-  std::cout << "listening on " << (*running)->address() << ' ' << counts(**catalog) << std::endl;
-  wait_for_stop(signals);
+  std::cout << "listening on " << (*running)->address() << ' ' << counts(**opened) << std::endl;
+  server::Reloader reloader(options.maps, catalog);
+  wait_for_stop(signals, reloader);
   (*running)->stop();
   return ok_status();
 }
@@ -84,7 +117,8 @@ int main(int argc, char** argv) {
   blocked({SIGHUP});  // from the start; SIGINT and SIGTERM may interrupt the opening of the maps
   const auto log = std::make_shared<server::LogWriter>(STDERR_FILENO);
   server::log_to(log);
-  const Status served = serve(std::get<server::Options>(options));
+  const auto& chosen = std::get<server::Options>(options);
+  const Status served = chosen.only_check ? check(chosen) : serve(chosen);
   if (!served) log->write("milepost-server: " + served.error().line() + '\n');
   log->close(kLastLines);
   return served ? 0 : 1;

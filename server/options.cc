@@ -21,8 +21,11 @@ Every file of the directory that is a milepost map is served under its name with
 Left out, each with the reason in the log, are files that cannot be served (empty, truncated,
 damaged, unreadable, a name that cannot be used in a URL) and copies and partial files of maps, by
 their names (town.map.bak, town.map~, town.old, town.part). Of files with the same map name the one
-that ends in .map is served, or none. The directory is read once: restart the server to serve new
-maps.)";
+that ends in .map is served, or none.
+The directory is watched: a file that comes, goes or takes the place of another (by renaming, never
+written in place) is taken up within a second, on SIGHUP, and on directories of other hosts within
+30 s. Answers under way end on the build that they began on; a build that was replaced stays for
+--keep-builds-s, then it is gone (410). /readyz tells which maps are left out or damaged, and why.)";
 
 constexpr const char* kExamples = R"~(Examples:
   milepost-server --maps /srv/milepost --listen 0.0.0.0:8080
@@ -37,11 +40,13 @@ constexpr const char* kExamples = R"~(Examples:
           maps = "/srv/milepost"
           listen = "0.0.0.0:8080"
           threads = 4
+  milepost-server --maps maps --listen 127.0.0.1:8080 --check-config
+      lists the maps that would be served, with their builds, and those that would be left out
   curl http://127.0.0.1:8080/v1/maps
       lists the maps; /openapi.yaml describes every path
 
 It serves until SIGINT (Ctrl-C) or SIGTERM, then finishes responses in progress and exits with 0.
-SIGHUP changes nothing: the maps are not read again. The log goes to standard error; lines that
+The log goes to standard error; lines that
 cannot be written, because nobody reads them or the disk is full, are dropped, and the log reports
 their number.
 Exit codes: 0 stopped on request, 1 the address or none of the maps can be used, 2 wrong call.
@@ -84,7 +89,17 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
       ->type_name("ADDR:PORT");
   add_number(app, "--threads", options.threads, "N", "Threads that answer requests", 1,
              kMaxThreads);
+  unsigned keep_builds_s = 600;
+  add_number(app, "--keep-builds-s", keep_builds_s, "S",
+             "How long a build that was replaced or taken away is still served", 0, 604800);
+  app.add_flag("--ready-needs-all", options.all_must_be_served,
+               "Answer /readyz with 503 while a map is left out or damaged");
+  app.add_flag(
+      "--check-config", options.only_check,
+      "Only check the options and list what would be served; exit code 1 if a map would be\n"
+      "left out");
   app.callback([&] {
+    options.keep_builds = std::chrono::seconds(keep_builds_s);
     if (!split_listen(listen, options.address, options.port)) {
       throw CLI::ValidationError("--listen " + listen,
                                  "not ADDR:PORT; write 127.0.0.1:8080 or [::1]:8080");

@@ -1,6 +1,7 @@
 // The command line and the configuration file of milepost-server.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -13,6 +14,9 @@ struct Options {
   std::string address;
   std::uint16_t port = 0;
   unsigned threads = 1;
+  std::chrono::seconds keep_builds{600};
+  bool all_must_be_served = false;
+  bool only_check = false;  // the options and the maps
 };
 
 // The options, or the exit code if the program ends: 0 after --help and --version, 2 after a wrong

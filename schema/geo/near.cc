@@ -29,6 +29,19 @@ Bounds bounds_around(const std::vector<GeoPoint>& points) {
   return box;
 }
 
+Bounds bounds_within(const GeoPoint& position, double radius_m) {
+  const double reach_deg = radius_m / kMetresPerDegree;
+  const double south_deg = std::max(position.latitude_deg - reach_deg, -90.0);
+  const double north_deg = std::min(position.latitude_deg + reach_deg, 90.0);
+  const double highest_deg = std::abs(position.latitude_deg) + reach_deg;
+  const double shrink = highest_deg >= 90 ? 0 : std::cos(highest_deg * kRadPerDeg);
+  if (reach_deg >= 180 * shrink) return {-180, south_deg, 180, north_deg};
+  const auto wrapped = [](double degrees) { return std::remainder(degrees, 360); };
+  const double across_deg = reach_deg / shrink;
+  return {wrapped(position.longitude_deg - across_deg), south_deg,
+          wrapped(position.longitude_deg + across_deg), north_deg};
+}
+
 bool may_be_within(const Bounds& box, const GeoPoint& position, double radius_m) {
   const double reach_deg = radius_m / kMetresPerDegree;
   const double latitude_deg = position.latitude_deg;

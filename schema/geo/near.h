@@ -18,6 +18,10 @@ bool is_near_radius(double radius_m);
 // The bounding box of points. REQUIRES: not empty.
 Bounds bounds_around(const std::vector<GeoPoint>& points);
 
+// A box around all positions within the radius, and some beyond. May cross longitude 180.
+// REQUIRES: is_near_radius.
+Bounds bounds_within(const GeoPoint& position, double radius_m);
+
 // False only if every point of the box is farther than `radius_m` from `position`, also across
 // longitude 180 and near the poles. REQUIRES: the box does not cross longitude 180.
 bool may_be_within(const Bounds& box, const GeoPoint& position, double radius_m);

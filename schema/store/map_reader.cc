@@ -19,8 +19,10 @@ namespace milepost {
 namespace fs = std::filesystem;
 namespace {
 
-// A map is untrusted: nothing in its schema may run code, and damaged cells are rejected.
-constexpr const char* kReadSettings = "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
+// A map is untrusted: nothing in its schema may run code, and damaged cells are rejected. Tiles are
+// read once, so that many pages in memory would serve nobody.
+constexpr const char* kReadSettings =
+    "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON; PRAGMA cache_size = -256;";
 constexpr std::size_t kMaxSegmentsInMemory = 64;
 
 enum Query { kMeta, kTileFrame, kCellFrame };
@@ -262,7 +264,12 @@ MapReader& MapReader::operator=(MapReader&&) noexcept = default;
 MapReader::~MapReader() = default;
 
 Result<MapReader> MapReader::open(const fs::path& file) {
-  Result<sqlite::Database> database = sqlite::Database::open(file, sqlite::Access::immutable);
+  return of(sqlite::Database::open(file, sqlite::Access::immutable));
+}
+
+Result<MapReader> MapReader::open(const HeldFile& file) { return of(sqlite::Database::open(file)); }
+
+Result<MapReader> MapReader::of(Result<sqlite::Database> database) {
   if (!database) return database.error();
   Status status = check_format(*database);
   if (status.ok()) status = database->execute(kReadSettings);

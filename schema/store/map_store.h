@@ -15,8 +15,12 @@
 #include "schema/base/range.h"
 #include "schema/base/result.h"
 #include "schema/document/stored_map.h"
+#include "schema/store/held_file.h"
 
 namespace milepost {
+namespace sqlite {
+class Database;
+}
 
 // Reads one map. Opens the file read only and never changes it; a map file is replaced by renaming,
 // so an open reader keeps reading the build that it opened. Whatever is returned has been checked
@@ -27,6 +31,8 @@ class MapReader {
  public:
   // Errors: not_found, corrupt (not a milepost map, one of another format version, or damaged), io.
   static Result<MapReader> open(const std::filesystem::path& file);
+  // REQUIRES: the file outlives the reader. Errors: corrupt, io.
+  static Result<MapReader> open(const HeldFile& file);
 
   MapReader(MapReader&&) noexcept;
   MapReader& operator=(MapReader&&) noexcept;
@@ -75,6 +81,7 @@ class MapReader {
  private:
   struct Impl;
   explicit MapReader(std::unique_ptr<Impl> impl);
+  static Result<MapReader> of(Result<sqlite::Database> database);
   std::unique_ptr<Impl> impl_;
 };
 

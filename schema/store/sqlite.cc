@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include "schema/store/held_database.h"
+
 namespace milepost::sqlite {
 namespace {
 
@@ -128,11 +130,20 @@ Result<Database> Database::open(const std::filesystem::path& file, Access access
   if (reading && !std::filesystem::exists(file, ignored)) {
     return Error{ErrorCode::not_found, file.string(), "there is no such file", "check the path"};
   }
+  const int flags = reading ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  return opened(file, uri_for(file, reading ? "?immutable=1" : ""), flags, nullptr);
+}
+
+Result<Database> Database::open(const HeldFile& file) {
+  const std::string query = "?immutable=1&fd=" + std::to_string(file.descriptor());
+  return opened(file.path(), uri_for(file.path(), query), SQLITE_OPEN_READONLY, held_file_system());
+}
+
+Result<Database> Database::opened(const std::filesystem::path& file, const std::string& uri,
+                                  int flags, const char* file_system) {
   sqlite3* handle = nullptr;
-  const int flags = SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX |
-                    (reading ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  const std::string uri = uri_for(file, reading ? "?immutable=1" : "");
-  const int code = sqlite3_open_v2(uri.c_str(), &handle, flags, nullptr);
+  const int code = sqlite3_open_v2(uri.c_str(), &handle,
+                                   flags | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, file_system);
   Database database(handle, file);  // owns the handle, which exists even after an error
   if (code != SQLITE_OK) {
     Error error = error_of(handle, code);

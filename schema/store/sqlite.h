@@ -10,6 +10,7 @@
 
 #include "schema/base/bytes.h"
 #include "schema/base/result.h"
+#include "schema/store/held_file.h"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -57,6 +58,9 @@ class Database {
  public:
   // Errors: not_found (immutable only), io, corrupt.
   static Result<Database> open(const std::filesystem::path& file, Access access);
+  // Reads the file that is held, as an immutable one. REQUIRES: it outlives the connection.
+  // Errors: io, corrupt.
+  static Result<Database> open(const HeldFile& file);
 
   // An empty database that is kept in memory up to a few megabytes, then in a file of the folder
   // for temporary files (TMPDIR), and gone when it is closed. Errors: io.
@@ -77,6 +81,8 @@ class Database {
   };
   Database(sqlite3* database, std::filesystem::path file)
       : database_(database), file_(std::move(file)) {}
+  static Result<Database> opened(const std::filesystem::path& file, const std::string& uri,
+                                 int flags, const char* file_system);
   std::unique_ptr<sqlite3, Closer> database_;
   std::filesystem::path file_;
 };

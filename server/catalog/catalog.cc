@@ -1,143 +1,162 @@
 #include "server/catalog/catalog.h"
 
 #include <algorithm>
-#include <system_error>
-#include <utility>
-#include <vector>
 
 #include <nlohmann/json.hpp>
-
-#include "server/catalog/map_file.h"
 
 namespace milepost::server {
 namespace fs = std::filesystem;
 namespace {
 
-// The entries of a directory that are not hidden, sorted by name.
-Result<std::vector<fs::path>> files_of(const fs::path& directory) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  fs::directory_iterator entry(directory, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const bool hidden = entry->path().filename().string().starts_with('.');
-    if (!hidden) files.push_back(entry->path());
-  }
-  if (error == std::errc::no_such_file_or_directory) {
-    return Error{ErrorCode::not_found, directory.string(), "there is no such directory",
-                 "give the directory of the map files"};
-  }
-  if (error) {
-    return Error{ErrorCode::io, directory.string(), "cannot be listed (" + error.message() + ")",
-                 "give a readable directory of map files"};
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-Document catalog_document(const std::map<std::string, std::shared_ptr<const ServedMap>>& maps) {
+Document catalog_document(const std::map<std::string, std::shared_ptr<const MapBuild>>& maps) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const auto& [name, map] : maps) list.push_back({{"name", name}, {"build", map->build()}});
+  for (const auto& [name, map] : maps) list.push_back({{"name", name}, {"build", map->build}});
   const nlohmann::ordered_json json = {{"maps", std::move(list)}};
   return document_of(json.dump());
 }
 
-// A file that is, or by its name should be, a map.
-struct Candidate {
-  fs::path file;
-  Status content;  // check_map_file
-};
-
-// The file to serve among several of one map name, or null if that is ambiguous.
-const Candidate* chosen_of(const std::vector<Candidate>& same_name) {
-  if (same_name.size() == 1) return &same_name.front();
-  const auto found = std::ranges::find_if(
-      same_name, [](const Candidate& candidate) { return candidate.file.extension() == ".map"; });
-  return found == same_name.end() ? nullptr : &*found;
+// Whether a file of the map is there, but cannot be served.
+bool is_left_out(const MapDirectory& directory, const std::string& map) {
+  return std::ranges::any_of(directory.left_out, [&](const auto& left_out) {
+    const auto looked = directory.files.find(left_out.first);
+    return looked != directory.files.end() && looked->second.name == map;
+  });
 }
-
-Error same_name_error(const std::string& name, const fs::path& file, const fs::path& other) {
-  return {ErrorCode::invalid_input, file.string(),
-          "has the same map name '" + name + "' as " + other.string(),
-          "rename or remove one of the two"};
-}
-
-// Finds the maps among files and opens them.
-class Opening {
- public:
-  Opening(unsigned readers, const Catalog::Warn& warn) : readers_(readers), warn_(warn) {}
-
-  void look_at(const fs::path& file) {
-    const Status content = check_map_file(file);
-    if (!content && content.error().code == ErrorCode::invalid_input && !is_named_as_map(file)) {
-      warn_(content.error().line());
-      return;
-    }
-    const Result<std::string> name = map_name_of(file);
-    if (name) {
-      candidates_[*name].push_back({file, content});
-    } else {
-      left_out.push_back(content ? name.error() : content.error());
-    }
-  }
-
-  void open_maps() {
-    for (const auto& [name, same_name] : candidates_) {
-      const Candidate* chosen = chosen_of(same_name);
-      for (const Candidate& candidate : same_name) {
-        const Status opened = &candidate == chosen ? open_map(name, candidate)
-                                                   : refused(name, candidate, same_name, chosen);
-        if (!opened) left_out.push_back(opened.error());
-      }
-    }
-  }
-
-  std::map<std::string, std::shared_ptr<const ServedMap>> maps;
-  std::vector<Error> left_out;
-
- private:
-  Status open_map(const std::string& name, const Candidate& candidate) {
-    if (!candidate.content) return candidate.content;
-    Result<std::shared_ptr<const ServedMap>> map = ServedMap::open(name, candidate.file, readers_);
-    if (!map) return map.error();
-    maps[name] = std::move(*map);
-    return ok_status();
-  }
-
-  // The error of a file that is not served because of others with the same map name.
-  static Status refused(const std::string& name, const Candidate& candidate,
-                        const std::vector<Candidate>& same_name, const Candidate* chosen) {
-    if (!candidate.content) return candidate.content;
-    if (chosen == nullptr) chosen = &same_name[&candidate == &same_name.front() ? 1 : 0];
-    return same_name_error(name, candidate.file, chosen->file);
-  }
-
-  unsigned readers_;
-  const Catalog::Warn& warn_;
-  std::map<std::string, std::vector<Candidate>> candidates_;
-};
 
 }  // namespace
 
-Result<std::shared_ptr<const Catalog>> Catalog::open(const fs::path& directory, unsigned readers,
+Result<std::shared_ptr<const Catalog>> Catalog::open(const fs::path& directory,
+                                                     const CatalogSettings& settings,
                                                      const Warn& warn) {
-  const Result<std::vector<fs::path>> files = files_of(directory);
-  if (!files) return files.error();
-  Opening opening(readers, warn);
-  for (const fs::path& file : *files) opening.look_at(file);
-  opening.open_maps();
-  const std::vector<Error>& left_out = opening.left_out;
-  if (opening.maps.empty() && left_out.size() == 1) return left_out.front();
-  for (const Error& error : left_out) warn(error.line());
-  if (opening.maps.empty() && !left_out.empty()) {
+  const std::shared_ptr<Catalog> catalog(new Catalog);
+  catalog->path_ = directory;
+  catalog->settings_ = settings;
+  catalog->open_maps_ =
+      std::make_shared<OpenMaps>(settings.open_maps, std::make_shared<MapFaults>());
+  Result<MapDirectory> read =
+      read_directory(directory, {}, *catalog->open_maps_, settings.kept, warn);
+  if (!read) return read.error();
+  const auto& left_out = read->left_out;
+  if (read->maps.empty() && left_out.size() == 1) return left_out.front().second;
+  for (const auto& [file, error] : left_out) warn(error.line());
+  if (read->maps.empty() && !left_out.empty()) {
     return Error{ErrorCode::corrupt, directory.string(),
                  "none of its " + std::to_string(left_out.size()) + " maps can be served",
                  "see the lines before this one"};
   }
-  const std::shared_ptr<Catalog> catalog(new Catalog);
-  catalog->maps_ = std::move(opening.maps);
-  catalog->left_out_ = left_out.size();
-  catalog->document_ = catalog_document(catalog->maps_);
+  catalog->take(std::move(*read), nullptr, Clock::now());
   return std::shared_ptr<const Catalog>(catalog);
+}
+
+Result<std::shared_ptr<const Catalog>> Catalog::reloaded(Clock::time_point now,
+                                                         const Warn& warn) const {
+  Result<MapDirectory> read = read_directory(path_, directory_, *open_maps_, settings_.kept, warn);
+  if (!read) return read.error();
+  for (const auto& [file, error] : read->left_out) {
+    const bool is_known = std::ranges::any_of(directory_.left_out, [&](const auto& known) {
+      return known.first == file && known.second.line() == error.line();
+    });
+    if (!is_known) warn(error.line());
+  }
+  const std::shared_ptr<Catalog> catalog(new Catalog);
+  catalog->path_ = path_;
+  catalog->settings_ = settings_;
+  catalog->open_maps_ = open_maps_;
+  catalog->take(std::move(*read), this, now);
+  return std::shared_ptr<const Catalog>(catalog);
+}
+
+void Catalog::take(MapDirectory directory, const Catalog* before, Clock::time_point now) {
+  directory_ = std::move(directory);
+  maps_ = directory_.maps;
+  if (before != nullptr) retire(*before, now);
+  open_maps_->faults()->keep_only([this](const std::string& map, const std::string& build) {
+    return this->build(map, build) != nullptr;
+  });
+  index();
+  document_ = catalog_document(maps_);
+}
+
+void Catalog::retire(const Catalog& before, Clock::time_point now) {
+  const auto faults = open_maps_->faults()->all();
+  for (const auto& [name, build] : before.maps_) {
+    const auto current = maps_.find(name);
+    if (current == maps_.end() && is_left_out(directory_, name)) {
+      maps_[name] = build;
+      continue;
+    }
+    const bool is_gone = current == maps_.end() || current->second->build != build->build;
+    // What was written over, or is damaged, cannot be read any more.
+    const bool is_damaged = faults.contains({name, build->build});
+    const bool is_overwritten =
+        current != maps_.end() && current->second->identity.is_same_file(build->identity);
+    if (is_gone && !is_overwritten && !is_damaged)
+      old_[name].push_back({build, now + settings_.keep});
+  }
+  for (const auto& [name, builds] : before.old_) {
+    const auto current = maps_.find(name);
+    for (const OldBuild& old : builds) {
+      const bool is_current = current != maps_.end() && current->second->build == old.build->build;
+      if (!is_current && old.until > now) old_[name].push_back(old);
+    }
+  }
+  std::erase_if(old_, [](const auto& map) { return map.second.empty(); });
+}
+
+bool Catalog::is_same(const Catalog& other) const {
+  const auto same_file = [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second.identity == b.second.identity;
+  };
+  const auto same_old = [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second.size() == b.second.size();
+  };
+  return maps_ == other.maps_ &&
+         std::ranges::equal(directory_.files, other.directory_.files, same_file) &&
+         std::ranges::equal(old_, other.old_, same_old);
+}
+
+void Catalog::index() {
+  std::vector<Bounds> boxes;
+  for (const auto& [name, build] : maps_) {
+    if (!build->bounds) continue;
+    with_lines_.push_back(build);
+    boxes.push_back(*build->bounds);
+  }
+  tree_.emplace(boxes);
+}
+
+std::optional<Catalog::Clock::time_point> Catalog::next_change() const {
+  std::optional<Clock::time_point> first;
+  for (const auto& [name, builds] : old_) {
+    for (const OldBuild& old : builds) first = std::min(first.value_or(old.until), old.until);
+  }
+  return first;
+}
+
+std::shared_ptr<const MapBuild> Catalog::build(const std::string& map,
+                                               const std::string& build) const {
+  const auto current = maps_.find(map);
+  if (current != maps_.end() && current->second->build == build) return current->second;
+  const auto old = old_.find(map);
+  if (old == old_.end()) return nullptr;
+  const auto found = std::ranges::find_if(
+      old->second, [&](const OldBuild& each) { return each.build->build == build; });
+  return found == old->second.end() ? nullptr : found->build;
+}
+
+Result<std::shared_ptr<const MapLines>> Catalog::lines(const MapBuild& build) const {
+  if (build.lines) return build.lines;
+  const auto map = read(build);
+  if (!map) return map.error();
+  return (*map)->lines();
+}
+
+std::vector<std::shared_ptr<const MapBuild>> Catalog::near(const GeoPoint& position,
+                                                           double radius_m) const {
+  std::vector<std::shared_ptr<const MapBuild>> found;
+  for (const std::size_t number : tree_->near(position, radius_m))
+    found.push_back(with_lines_[number]);
+  return found;
 }
 
 }  // namespace milepost::server

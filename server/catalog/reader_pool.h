@@ -2,7 +2,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -11,8 +10,8 @@
 
 namespace milepost::server {
 
-// All readers are opened together, so that they read one build even if the file is replaced later.
-// Safe to use from several threads at once.
+// Readers are opened when they are needed; all read the same file, even if it is replaced. Safe to
+// use from several threads at once.
 class ReaderPool {
  public:
   // A reader for one thread; it is returned to the pool when the lease ends.
@@ -30,24 +29,24 @@ class ReaderPool {
     MapReader* reader_;
   };
 
-  // REQUIRES: count >= 1. Errors: those of MapReader::open; unavailable if the file was replaced
-  // meanwhile.
-  static Result<std::unique_ptr<ReaderPool>> open(const std::filesystem::path& file,
+  // REQUIRES: count >= 1. Errors: those of MapReader::open.
+  static Result<std::unique_ptr<ReaderPool>> open(std::shared_ptr<const HeldFile> file,
                                                   unsigned count);
 
   // Blocks while all readers are lent.
   Lease lend();
 
  private:
-  explicit ReaderPool(std::vector<MapReader> readers);
+  ReaderPool(std::shared_ptr<const HeldFile> file, unsigned count, MapReader first);
+  MapReader* add(MapReader reader);
   void give_back(MapReader* reader);
 
-  // Constant after construction.
-  std::vector<MapReader> readers_;
-
+  const std::shared_ptr<const HeldFile> file_;
   std::mutex mutex_;
   std::condition_variable returned_;
-  std::vector<MapReader*> idle_;  // guarded by mutex_
+  unsigned to_open_;  // guarded by mutex_, like all below
+  std::vector<std::unique_ptr<MapReader>> readers_;
+  std::vector<MapReader*> idle_;
 };
 
 }  // namespace milepost::server

@@ -1,5 +1,8 @@
 #include "server/catalog/served_map.h"
 
+#include <utility>
+#include <vector>
+
 #include "server/catalog/map_documents.h"
 
 namespace milepost::server {
@@ -14,24 +17,19 @@ Result<RouteLine> line_of(const StoredSegment& segment) {
   return RouteLine::from_vertices(std::move(points));
 }
 
-// The length was sent to the client before.
-Result<Bytes> of_length(Result<Bytes> tile, std::uint64_t bytes, const std::string& where) {
-  if (!tile || tile->size() == bytes) return tile;
-  return Error{ErrorCode::corrupt, where, "the length is not the one in the index",
-               "replace the file with a good copy, or rebuild the map"};
-}
-
 }  // namespace
 
 Result<std::shared_ptr<const ServedMap>> ServedMap::open(const std::string& name,
-                                                         const std::filesystem::path& file,
-                                                         unsigned readers) {
+                                                         std::shared_ptr<const HeldFile> file,
+                                                         unsigned readers,
+                                                         std::shared_ptr<MapFaults> faults) {
   Result<std::unique_ptr<ReaderPool>> pool = ReaderPool::open(file, readers);
   if (!pool) return pool.error();
   const std::shared_ptr<ServedMap> map(new ServedMap);
   map->name_ = name;
-  map->file_ = file;
+  map->file_ = std::move(file);
   map->readers_ = std::move(*pool);
+  map->faults_ = std::move(faults);
   const Status loaded = map->load(*map->readers_->lend());
   if (!loaded) return loaded.error();
   return std::shared_ptr<const ServedMap>(map);
@@ -42,24 +40,26 @@ Status ServedMap::load(const MapReader& reader) {
   layers_ = reader.layers();
   manifest_ = document_of(reader.manifest_document());
   summary_ = document_of(reader.map_document());
+  std::vector<SegmentLine> lines;
   for (const std::string& id : reader.segment_ids()) {
-    const Status loaded = load_segment(reader, id);
-    if (!loaded) return loaded;
-    const ServedSegment& segment = segments_.at(id);
-    box_ = segments_.size() == 1 ? segment.line.box : box_.joined(segment.line.box);
+    Result<SegmentLine> line = load_segment(reader, id);
+    if (!line) return line.error();
+    lines.push_back(std::move(*line));
   }
+  lines_ = std::make_shared<const MapLines>(std::move(lines));
   const Status cells_loaded = load_cells(reader);
   if (!cells_loaded) return cells_loaded;
   document_ = document_of(current_map_document(name_, reader));
+  count_memory();
   return ok_status();
 }
 
-Status ServedMap::load_segment(const MapReader& reader, const std::string& id) {
+Result<SegmentLine> ServedMap::load_segment(const MapReader& reader, const std::string& id) {
   Result<StoredSegment> stored = reader.segment(id);
   if (!stored) return stored.error();
   Result<RouteLine> line = line_of(*stored);
   if (!line) {
-    return Error{ErrorCode::corrupt, file_.string() + ", segment " + id, line.error().what,
+    return Error{ErrorCode::corrupt, file_->path().string() + ", segment " + id, line.error().what,
                  "rebuild the map"};
   }
   std::map<std::string, std::vector<TileEntry>> tiles;
@@ -70,9 +70,8 @@ Status ServedMap::load_segment(const MapReader& reader, const std::string& id) {
   }
   Result<std::string> document = reader.segment_document(id);
   if (!document) return document.error();
-  segments_.emplace(id, ServedSegment{stored->length_m, BoxedLine(std::move(*line)),
-                                      std::move(tiles), document_of(std::move(*document))});
-  return ok_status();
+  segments_.emplace(id, ServedSegment{std::move(tiles), document_of(std::move(*document))});
+  return SegmentLine{id, stored->length_m, BoxedLine(std::move(*line))};
 }
 
 Status ServedMap::load_cells(const MapReader& reader) {
@@ -87,16 +86,35 @@ Status ServedMap::load_cells(const MapReader& reader) {
   return ok_status();
 }
 
+void ServedMap::count_memory() {
+  memory_bytes_ = document_.text->size() + manifest_.text->size() + summary_.text->size() +
+                  2 * areas_.text->size() + lines_->memory_bytes();
+  // The document, and the index that is written in it.
+  for (const auto& [id, segment] : segments_) memory_bytes_ += 3 * segment.document.text->size();
+}
+
 Result<Bytes> ServedMap::tile(const std::string& segment, const std::string& layer,
                               const TileEntry& entry) const {
-  return of_length(readers_->lend()->tile(segment, layer, entry), entry.bytes,
-                   file_.string() + ", segment " + segment + ", layer " + layer + ", tile " +
-                       std::to_string(entry.index));
+  return checked(
+      readers_->lend()->tile(segment, layer, entry), entry.bytes,
+      "segment " + segment + ", layer " + layer + ", tile " + std::to_string(entry.index));
 }
 
 Result<Bytes> ServedMap::cell(const std::string& layer, const CellEntry& entry) const {
-  return of_length(readers_->lend()->cell(layer, entry), entry.bytes,
-                   file_.string() + ", layer " + layer + ", cell " + std::to_string(entry.cell));
+  return checked(readers_->lend()->cell(layer, entry), entry.bytes,
+                 "layer " + layer + ", cell " + std::to_string(entry.cell));
+}
+
+// The length was sent to the client before.
+Result<Bytes> ServedMap::checked(Result<Bytes> tile, std::uint64_t bytes,
+                                 const std::string& where) const {
+  if (tile && tile->size() != bytes) {
+    tile = Error{ErrorCode::corrupt, file_->path().string() + ", " + where,
+                 "the length is not the one in the index",
+                 "replace the file with a good copy, or rebuild the map"};
+  }
+  if (!tile) faults_->add(name_, build_, tile.error());
+  return tile;
 }
 
 }  // namespace milepost::server

@@ -1,22 +1,21 @@
 // One map that is served: lines, documents and indices in memory, tiles on the disk.
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "schema/geo/near.h"
 #include "schema/store/map_store.h"
 #include "server/catalog/document.h"
+#include "server/catalog/map_faults.h"
+#include "server/catalog/map_lines.h"
 #include "server/catalog/reader_pool.h"
 
 namespace milepost::server {
 
 struct ServedSegment {
-  double length_m = 0;  // as the map states it
-  BoxedLine line;
   std::map<std::string, std::vector<TileEntry>> tiles;  // layer -> index, ascending; every layer
   Document document;
 };
@@ -24,11 +23,12 @@ struct ServedSegment {
 // Immutable, so safe to share between threads.
 class ServedMap {
  public:
-  // Opens `readers` readers, one for each thread that reads tiles.
-  // Errors: those of MapReader.
+  // Has up to `readers` readers, for threads that read tiles at once. Tells `faults` of tiles that
+  // cannot be read. Errors: those of MapReader.
   static Result<std::shared_ptr<const ServedMap>> open(const std::string& name,
-                                                       const std::filesystem::path& file,
-                                                       unsigned readers);
+                                                       std::shared_ptr<const HeldFile> file,
+                                                       unsigned readers,
+                                                       std::shared_ptr<MapFaults> faults);
 
   const std::string& name() const { return name_; }
   const std::string& build() const { return build_; }
@@ -39,7 +39,10 @@ class ServedMap {
   const Document& manifest() const { return manifest_; }
   const Document& summary() const { return summary_; }  // the build's map document
   const Document& areas() const { return areas_; }      // the index of the cells
-  const Bounds& box() const { return box_; }            // of all segments' lines
+  const std::shared_ptr<const MapLines>& lines() const { return lines_; }
+  const std::shared_ptr<const HeldFile>& file() const { return file_; }
+  // Of the documents and the indices, about.
+  std::uint64_t memory_bytes() const { return memory_bytes_; }
 
   // An encoded tile, checked against its entry in the index.
   // Errors: corrupt (it is not the one of the index), io.
@@ -51,22 +54,26 @@ class ServedMap {
  private:
   ServedMap() = default;
   Status load(const MapReader& reader);
-  Status load_segment(const MapReader& reader, const std::string& id);
+  Result<SegmentLine> load_segment(const MapReader& reader, const std::string& id);
   Status load_cells(const MapReader& reader);
+  void count_memory();
+  Result<Bytes> checked(Result<Bytes> tile, std::uint64_t bytes, const std::string& where) const;
 
   // Constant after construction.
   std::string name_;
   std::string build_;
-  std::filesystem::path file_;
+  std::shared_ptr<const HeldFile> file_;
   std::map<std::string, std::string> layers_;
   std::map<std::string, ServedSegment> segments_;
   std::map<std::string, std::vector<CellEntry>> cells_;
-  Bounds box_;
+  std::shared_ptr<const MapLines> lines_;
+  std::uint64_t memory_bytes_ = 0;
   Document document_;
   Document manifest_;
   Document summary_;
   Document areas_;
-  std::unique_ptr<ReaderPool> readers_;  // synchronizes itself
+  std::unique_ptr<ReaderPool> readers_;  // synchronizes itself, as do the faults
+  std::shared_ptr<MapFaults> faults_;
 };
 
 }  // namespace milepost::server

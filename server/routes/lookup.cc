@@ -19,6 +19,10 @@ Error absent(const std::string& what, const std::string& hint) {
   return {ErrorCode::not_found, what, "does not exist", hint};
 }
 
+Error no_map(const std::string& name) {
+  return absent("map '" + name + "'", "/v1/maps lists the maps");
+}
+
 // The index of a layer.
 template <class Entry>
 Result<const std::vector<Entry>*> find_index(
@@ -56,23 +60,26 @@ Result<std::shared_ptr<const ServedMap>> find_map(const Catalog& catalog, const 
   const Status form = check_id("map", name);
   if (!form) return form.error();
   const auto found = catalog.maps().find(name);
-  if (found == catalog.maps().end()) return absent("map '" + name + "'", "/v1/maps lists the maps");
-  return found->second;
+  if (found == catalog.maps().end()) return no_map(name);
+  return catalog.read(*found->second);
 }
 
 Result<std::shared_ptr<const ServedMap>> find_build(const Catalog& catalog, const std::string& name,
                                                     const std::string& build) {
-  Result<std::shared_ptr<const ServedMap>> map = find_map(catalog, name);
-  if (!map) return map;
+  const Status form = check_id("map", name);
+  if (!form) return form.error();
+  const auto current = catalog.maps().find(name);
+  const bool is_there = current != catalog.maps().end();
+  if (!is_there && !catalog.old_builds().contains(name)) return no_map(name);
   if (!is_digest(build)) {
     return Error{ErrorCode::invalid_input, "build '" + build + "'", "is not a valid build",
                  "write 32 lower-case hexadecimal digits, as /v1/maps does"};
   }
-  if (build != (*map)->build()) {
-    return Error{ErrorCode::gone, "build " + build, "is not the map's current one",
-                 "use build " + (*map)->build()};
-  }
-  return map;
+  const std::shared_ptr<const MapBuild> found = catalog.build(name, build);
+  if (found) return catalog.read(*found);
+  if (!is_there) return no_map(name);
+  return Error{ErrorCode::gone, "build " + build, "is not the map's current one",
+               "use build " + current->second->build};
 }
 
 Result<const ServedSegment*> find_segment(const ServedMap& map, const std::string& id) {

@@ -1,5 +1,5 @@
-// Resolves the names in a path. Errors of all: invalid_input (the name is malformed), not_found,
-// and for a build also gone.
+// Resolves the names in a path; blocks while a map is read from its file. Errors of all:
+// invalid_input (the name is malformed), not_found, and for a build also gone.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace milepost::server {
 
 Result<std::shared_ptr<const ServedMap>> find_map(const Catalog& catalog, const std::string& name);
 
-// The map, if `build` is its current one.
+// The map of a build, if that is the current one or was until a short time ago.
 Result<std::shared_ptr<const ServedMap>> find_build(const Catalog& catalog, const std::string& name,
                                                     const std::string& build);
 

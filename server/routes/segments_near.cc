@@ -11,8 +11,8 @@ namespace milepost::server {
 namespace {
 
 struct Near {
-  const ServedMap* map = nullptr;
-  const std::string* segment = nullptr;
+  std::shared_ptr<const MapBuild> map;
+  std::string segment;
   double length_m = 0;
   LineProjection projection;
 };
@@ -47,26 +47,17 @@ Result<double> radius_of(const Query& query) {
   return radius_m;
 }
 
-void collect(const ServedMap& map, const GeoPoint& position, double radius_m,
-             std::vector<Near>& found) {
-  if (!may_be_within(map.box(), position, radius_m)) return;
-  for (const auto& [id, segment] : map.segments()) {
-    const auto nearest = segment.line.nearest_within(position, radius_m);
-    if (nearest) found.push_back({&map, &id, segment.length_m, *nearest});
-  }
-}
-
 bool nearer(const Near& a, const Near& b) {
-  return std::tie(a.projection.distance_m, a.map->name(), *a.segment) <
-         std::tie(b.projection.distance_m, b.map->name(), *b.segment);
+  return std::tie(a.projection.distance_m, a.map->map, a.segment) <
+         std::tie(b.projection.distance_m, b.map->map, b.segment);
 }
 
 std::string json_of(const std::vector<Near>& found) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Near& near : found) {
-    list.push_back({{"map", near.map->name()},
-                    {"build", near.map->build()},
-                    {"segment", *near.segment},
+    list.push_back({{"map", near.map->map},
+                    {"build", near.map->build},
+                    {"segment", near.segment},
                     {"along_m", near.projection.along_m},
                     {"distance_m", near.projection.distance_m},
                     {"length_m", near.length_m}});
@@ -83,7 +74,12 @@ Result<Response> answer_segments_near(const Call& call) {
   const Result<double> radius_m = radius_of(call.query);
   if (!radius_m) return radius_m.error();
   std::vector<Near> found;
-  for (const auto& [name, map] : call.catalog.maps()) collect(*map, *position, *radius_m, found);
+  for (const auto& map : call.catalog.near(*position, *radius_m)) {
+    const auto lines = call.catalog.lines(*map);
+    if (!lines) continue;  // one that is damaged hides no other
+    for (const auto& [line, projection] : (*lines)->near(*position, *radius_m))
+      found.push_back({map, line->segment, line->length_m, projection});
+  }
   std::sort(found.begin(), found.end(), nearer);
   return current_json(document_of(json_of(found)));
 }

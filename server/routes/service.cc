@@ -7,8 +7,21 @@ namespace milepost::server {
 
 Result<Response> answer_health(const Call&) { return plain_text("ok\n"); }
 
-// The catalog is open before the server listens, so the server is always ready.
-Result<Response> answer_ready(const Call&) { return plain_text("ok\n"); }
+// "ok" and what is not: a map left out, or damaged since it was opened, a line each.
+Result<Response> answer_ready(const Call& call) {
+  std::string faults;
+  for (const auto& [file, error] : call.catalog.left_out_files())
+    faults += "left out: " + error.line() + "\n";
+  for (const auto& [map, error] : call.catalog.faults())
+    faults += "damaged: build " + map.second + " of map " + map.first + ": " + error.line() + "\n";
+  const bool is_ready = faults.empty() || !call.catalog.settings().all_must_be_served;
+  Response response = plain_text((is_ready ? "ok\n" : "not ready\n") + faults);
+  if (!is_ready) {
+    response.status = 503;
+    response.headers.emplace_back("Retry-After", "10");
+  }
+  return response;
+}
 
 Result<Response> answer_openapi(const Call&) {
   static const Document document = document_of(std::string(openapi_yaml()));

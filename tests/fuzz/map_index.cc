@@ -1,6 +1,8 @@
 // A map file with arbitrary bytes: the reads of a client ('c' as the first byte), or of a server
 // at its start ('s').
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "schema/store/map_store.h"
 #include "schema/tile/codec.h"
@@ -39,7 +41,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const fuzz::ScratchFile file(".map");
   file.write(data + 1, size - 1);
   if (data[0] == 's') {
-    static_cast<void>(server::ServedMap::open("fuzz", file.path(), 1));
+    Result<HeldFile> opened = HeldFile::open(file.path());
+    fuzz::check(opened.ok());
+    const auto held = std::make_shared<const HeldFile>(std::move(*opened));
+    static_cast<void>(
+        server::ServedMap::open("fuzz", held, 1, std::make_shared<server::MapFaults>()));
     return 0;
   }
   const Result<MapReader> map = MapReader::open(file.path());

@@ -27,7 +27,7 @@ class CatalogTest : public ::testing::Test {
  protected:
   Result<std::shared_ptr<const Catalog>> open() {
     warnings_.clear();
-    return Catalog::open(folder_.path(), 1,
+    return Catalog::open(folder_.path(), CatalogSettings(),
                          [this](const std::string& line) { warnings_.push_back(line); });
   }
 
@@ -260,7 +260,7 @@ TEST_F(CatalogTest, OfTwoMapsOfOneNameTheFileDotMapIsServed) {
   const TownMap town = write_town(folder_.path() / "town.map", 10, 2);
   const auto catalog = open();
   ASSERT_TRUE(catalog.ok()) << catalog.error().line();
-  EXPECT_EQ((*catalog)->maps().at("town")->build(), town.build);
+  EXPECT_EQ((*catalog)->maps().at("town")->build, town.build);
   EXPECT_EQ((*catalog)->left_out(), 2U);
   const auto same =
       AllOf(HasSubstr("has the same map name 'town' as"), HasSubstr("town.map; rename"));
@@ -314,7 +314,8 @@ TEST_F(CatalogTest, BadMapsAloneAreAnErrorWithEachReason) {
 }
 
 TEST_F(CatalogTest, MissingDirectoryIsNamed) {
-  const auto catalog = Catalog::open(folder_.path() / "none", 1, [](const std::string&) {});
+  const auto catalog =
+      Catalog::open(folder_.path() / "none", CatalogSettings(), [](const std::string&) {});
   ASSERT_FALSE(catalog.ok());
   EXPECT_EQ(catalog.error().code, ErrorCode::not_found);
   EXPECT_THAT(catalog.error().line(), HasSubstr("/none: there is no such directory"));
@@ -322,7 +323,8 @@ TEST_F(CatalogTest, MissingDirectoryIsNamed) {
 
 TEST_F(CatalogTest, FileInPlaceOfTheDirectoryIsNamed) {
   write("file", "");
-  const auto catalog = Catalog::open(folder_.path() / "file", 1, [](const std::string&) {});
+  const auto catalog =
+      Catalog::open(folder_.path() / "file", CatalogSettings(), [](const std::string&) {});
   ASSERT_FALSE(catalog.ok());
   EXPECT_EQ(catalog.error().code, ErrorCode::io);
   EXPECT_THAT(catalog.error().line(), HasSubstr("/file: cannot be listed"));
@@ -333,7 +335,7 @@ TEST_F(CatalogTest, OpenMapGoesOnServingAfterTheFileIsReplaced) {
   const auto catalog = open();
   ASSERT_TRUE(catalog.ok());
   write_town(folder_.path() / "town.map", 1000, 2);
-  const auto& map = (*catalog)->maps().at("town");
+  const auto map = served_map(**catalog, "town");
   EXPECT_EQ(map->build(), first.build);
   const TileEntry& entry = map->segments().at("s1").tiles.at("tracklets")[0];
   const Result<Bytes> tile = map->tile("s1", "tracklets", entry);
@@ -345,7 +347,7 @@ TEST_F(CatalogTest, TileOfAnotherLengthThanPromisedIsCorrupt) {
   write_town(folder_.path() / "town.map");
   const auto catalog = open();
   ASSERT_TRUE(catalog.ok());
-  const auto& map = (*catalog)->maps().at("town");
+  const auto map = served_map(**catalog, "town");
   TileEntry entry = map->segments().at("s1").tiles.at("tracklets")[1];
   entry.bytes += 1;
   const Result<Bytes> tile = map->tile("s1", "tracklets", entry);
@@ -357,7 +359,7 @@ TEST_F(CatalogTest, CellOfAnotherLengthThanPromisedIsCorrupt) {
   const TownMap town = write_town(folder_.path() / "town.map");
   const auto catalog = open();
   ASSERT_TRUE(catalog.ok());
-  const auto& map = (*catalog)->maps().at("town");
+  const auto map = served_map(**catalog, "town");
   CellEntry entry = map->cells().at("walls")[1];
   EXPECT_EQ(*map->cell("walls", entry), town.cells[1]);
   entry.bytes += 1;

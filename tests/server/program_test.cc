@@ -73,6 +73,15 @@ class Program {
   }
   std::string output() { return rest_of(out_); }
   std::string error() { return rest_of(err_); }
+  // Standard error up to the line that holds `text`, or to its end.
+  std::string error_until(const std::string& text) {
+    std::string lines;
+    for (std::string line; line.find(text) == std::string::npos; lines += line) {
+      line = error_lines(1);
+      if (line.empty()) break;
+    }
+    return lines;
+  }
   // The first `count` lines of standard error, or fewer if it ends.
   std::string error_lines(int count) {
     std::string text;
@@ -338,14 +347,40 @@ TEST_F(ProgramWithMapTest, ClosedDescriptorsAreNotTakenByAnythingElse) {
   EXPECT_EQ(std::filesystem::read_symlink(open / "2"), "/dev/null");
 }
 
-TEST_F(ProgramWithMapTest, SighupIsNotTheEnd) {
+TEST_F(ProgramWithMapTest, MapsAreTakenUpWhenTheyComeAndOnSighup) {
+  // Behind a link nothing is watched.
+  const std::filesystem::path link = maps_.path() / "linked.map";
+  write_town(other_.path() / "first.map", 100, 5);
+  const std::string second = write_town(other_.path() / "second.map", 100, 6).build;
+  std::filesystem::create_symlink(other_.path() / "first.map", link);
   Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"});
   const std::uint16_t port = port_in(program.line());
+  const std::string before = fetch(port, "/v1/maps").body;
+
+  write_town(maps_.path() / "village.map", 100, 4);
+  EXPECT_THAT(program.error_until("map village: is served now"), HasSubstr("GET /v1/maps"));
+  EXPECT_EQ(fetch(port, "/v1/maps/village").status, 200);
+  std::filesystem::rename(other_.path() / "second.map", other_.path() / "first.map");
+  EXPECT_THAT(fetch(port, "/v1/maps").body, Not(HasSubstr(second)));
   program.signal(SIGHUP);
-  EXPECT_THAT(program.error_lines(1), AllOf(HasSubstr("SIGHUP"), HasSubstr("restart the server")));
-  EXPECT_EQ(fetch(port, "/healthz").body, "ok\n");
+  EXPECT_THAT(program.error_until("map linked: build " + second), HasSubstr("SIGHUP"));
+  EXPECT_THAT(fetch(port, "/v1/maps").body, HasSubstr(second));
   program.signal(SIGTERM);
   EXPECT_EQ(program.wait(), 0);
+}
+
+TEST_F(ProgramWithMapTest, CheckConfigListsWhatWouldBeServed) {
+  Program sound({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--check-config"});
+  EXPECT_THAT(sound.output(), AllOf(HasSubstr("town  build "), HasSubstr("town.map\n")));
+  EXPECT_EQ(sound.error(), "");
+  EXPECT_EQ(sound.wait(), 0);
+  std::ofstream(maps_.path() / "half.map") << "";
+  Program half({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--check-config"});
+  EXPECT_THAT(half.output(), AllOf(HasSubstr("town  build "), HasSubstr("left out: "),
+                                   HasSubstr("half.map: is empty")));
+  EXPECT_THAT(half.error(),
+              AllOf(HasSubstr("1 of its maps would be left out"), Not(HasSubstr("\nmilepost"))));
+  EXPECT_EQ(half.wait(), 1);
 }
 
 TEST_F(ProgramWithMapTest, RestIsServedAndTheFirstLineCounts) {

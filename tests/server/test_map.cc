@@ -90,8 +90,16 @@ std::string write_walls(const std::filesystem::path& file,
   return finished(*writer);
 }
 
+std::shared_ptr<const ServedMap> served_map(const Catalog& catalog, const std::string& name) {
+  const auto map = catalog.read(*catalog.maps().at(name));
+  if (!map) throw std::runtime_error(map.error().line());
+  return *map;
+}
+
 std::shared_ptr<const Catalog> open_catalog(const std::filesystem::path& folder, unsigned readers) {
-  const auto catalog = Catalog::open(folder, readers, [](const std::string&) {});
+  CatalogSettings settings;
+  settings.open_maps.readers = readers;
+  const auto catalog = Catalog::open(folder, settings, [](const std::string&) {});
   if (!catalog) throw std::runtime_error(catalog.error().line());
   return *catalog;
 }

@@ -45,6 +45,9 @@ TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes = 
 // Returns its build.
 std::string write_walls(const std::filesystem::path& file, const std::vector<std::uint32_t>& cells);
 
+// The map of a catalog that has it, read from its file if need be.
+std::shared_ptr<const ServedMap> served_map(const Catalog& catalog, const std::string& name);
+
 // Opens a catalog, which must be valid.
 std::shared_ptr<const Catalog> open_catalog(const std::filesystem::path& folder,
                                             unsigned readers = 2);

@@ -63,7 +63,8 @@ class ServedMapTest : public ::testing::Test {
   ServedMapTest() {
     std::filesystem::create_directory(folder_ / "maps");
     version_ = {"town", write_map(folder_ / "maps" / "town.mpm")};
-    auto catalog = server::Catalog::open(folder_ / "maps", 2, [](const std::string&) {});
+    auto catalog = server::Catalog::open(folder_ / "maps", server::CatalogSettings(),
+                                         [](const std::string&) {});
     EXPECT_TRUE(catalog.ok());
     server::ServerSettings settings;
     settings.threads = 2;
