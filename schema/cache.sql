@@ -3,7 +3,7 @@
 -- is set aside as a damaged one is, and a new one is begun.
 
 PRAGMA application_id = 1297108785;  -- 0x4D504F31, "MPO1"
-PRAGMA user_version = 3;             -- of this layout; 2 had documents that no build covered
+PRAGMA user_version = 4;             -- of this layout; 3 found nothing by its digest
 
 -- Tiles and cells as the server stores them, and the documents that tell which there are.
 -- A cell has segment '' and its number in the grid. A document has layer '': a segment's has number
@@ -17,12 +17,15 @@ CREATE TABLE entries (
   segment  TEXT NOT NULL,
   layer    TEXT NOT NULL,
   number   INTEGER NOT NULL,   -- the tile's index, or the cell's number
-  digest   TEXT NOT NULL,      -- of the content, to find damage; not relied upon
+  digest   TEXT NOT NULL,      -- of the content, to find it and its damage; not relied upon
   bytes    INTEGER NOT NULL,   -- length of the content
   last_use INTEGER NOT NULL,   -- uses are numbered: each gets one more than the greatest here
   content  BLOB NOT NULL,
   UNIQUE (map, build, segment, layer, number)
 ) STRICT;
+
+-- What a new build has in common with the one before it, so that it is not fetched again.
+CREATE INDEX entries_by_digest ON entries (digest);
 
 -- The greatest number of a use. No clock is asked: a vehicle's may be wrong by decades.
 CREATE INDEX entries_by_use ON entries (last_use);

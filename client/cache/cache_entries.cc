@@ -69,6 +69,27 @@ Result<std::optional<CacheEntries::Found>> CacheEntries::find(const CacheKey& ke
   return std::optional<Found>(Found{Bytes(content.begin(), content.end()), sound});
 }
 
+Result<std::optional<std::int64_t>> CacheEntries::find_in_other_build(const CacheKey& key,
+                                                                      const std::string& digest) {
+  auto select = database_.prepare(
+      "SELECT id FROM entries WHERE digest = ?6 AND map = ?1 AND build <> ?2 AND segment = ?3"
+      " AND layer = ?4 AND number = ?5 LIMIT 1");
+  if (!select.ok()) return select.error();
+  bind_key(*select, key);
+  select->bind(6, std::string_view(digest));
+  const Result<bool> there = select->step();
+  if (!there.ok()) return there.error();
+  if (!*there) return std::optional<std::int64_t>();
+  return std::optional(select->integer(0));
+}
+
+Status CacheEntries::move_to_build(std::int64_t id, const std::string& build) {
+  auto update = database_.prepare("UPDATE OR IGNORE entries SET build = ?1 WHERE id = ?2");
+  if (!update.ok()) return update.error();
+  update->bind(1, std::string_view(build)).bind(2, id);
+  return update->run();
+}
+
 Status CacheEntries::mark_used(const CacheKey& key) {
   return in_transaction([&] { return mark_used_now(key); });
 }

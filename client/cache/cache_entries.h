@@ -61,6 +61,11 @@ class CacheEntries {
   Status check_total();
 
   Result<std::optional<Found>> find(const CacheKey& key);
+  // The entry that differs from the key in its build alone and has the digest; its id, if any.
+  Result<std::optional<std::int64_t>> find_in_other_build(const CacheKey& key,
+                                                          const std::string& digest);
+  // Makes it an entry of the key's build, if it still exists and the build has none.
+  Status move_to_build(std::int64_t id, const std::string& build);
   // Marks the entry as the most recently used, if it exists.
   Status mark_used(const CacheKey& key);
   // Adds or replaces an entry, then evicts least recently used entries beyond the limit. REQUIRES:

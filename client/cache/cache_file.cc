@@ -19,7 +19,7 @@ constexpr std::string_view kSuffix = ".sqlite";
 constexpr std::string_view kDamaged = ".damaged";
 constexpr int kLastGeneration = 999999;  // a file with a greater number is not the cache's
 constexpr std::int64_t kApplicationId = 1297108785;  // as in cache.sql
-constexpr std::int64_t kLayoutVersion = 3;           // as in cache.sql
+constexpr std::int64_t kLayoutVersion = 4;           // as in cache.sql
 
 fs::path file_of(const fs::path& folder, int generation) {
   return folder / (std::string(kPrefix) + std::to_string(generation) + std::string(kSuffix));

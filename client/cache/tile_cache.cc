@@ -85,9 +85,24 @@ Status TileCache::run_open(const Operation& operation) {
   return done;
 }
 
-std::optional<Bytes> TileCache::find(const CacheKey& key) { return find(key, ""); }
+std::optional<Bytes> TileCache::find(const CacheKey& key) { return find_here(key, ""); }
 
 std::optional<Bytes> TileCache::find(const CacheKey& key, const std::string& digest) {
+  if (auto found = find_here(key, digest)) return found;
+  std::optional<std::int64_t> other;
+  run(Kind::reading, [&](CacheEntries& entries) -> Status {
+    const auto id = entries.find_in_other_build(key, digest);
+    if (!id.ok()) return id.error();
+    other = *id;
+    return ok_status();
+  });
+  if (!other) return std::nullopt;
+  run(Kind::writing,
+      [&](CacheEntries& entries) { return entries.move_to_build(*other, key.build); });
+  return find_here(key, digest);
+}
+
+std::optional<Bytes> TileCache::find_here(const CacheKey& key, const std::string& digest) {
   std::optional<CacheEntries::Found> found;
   bool damaged = false;
   run(Kind::reading, [&](CacheEntries& entries) -> Status {

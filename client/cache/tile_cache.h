@@ -43,7 +43,8 @@ class TileCache {
 
   // The content, if the entry exists and matches the digest stored with it; marks it as used.
   std::optional<Bytes> find(const CacheKey& key);
-  // The same, also compared with a known digest.
+  // The same, also compared with a known digest. What another build of the map has under the same
+  // key and digest becomes this build's: a new build fetches only what differs.
   std::optional<Bytes> find(const CacheKey& key, const std::string& digest);
   // Marks the entry as used, if it exists.
   void touch(const CacheKey& key);
@@ -70,6 +71,7 @@ class TileCache {
 
   explicit TileCache(CacheSettings settings);
   void run(Kind kind, const Operation& operation);
+  std::optional<Bytes> find_here(const CacheKey& key, const std::string& digest);
   Status open_file();
   Status run_open(const Operation& operation);
   void pause(Kind kind);

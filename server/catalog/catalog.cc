@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/catalog/kept_builds.h"
+
 namespace milepost::server {
 namespace fs = std::filesystem;
 namespace {
@@ -142,6 +144,15 @@ std::shared_ptr<const MapBuild> Catalog::build(const std::string& map,
   const auto found = std::ranges::find_if(
       old->second, [&](const OldBuild& each) { return each.build->build == build; });
   return found == old->second.end() ? nullptr : found->build;
+}
+
+std::shared_ptr<const MapBuild> Catalog::older_build(const std::string& map,
+                                                     const std::string& build) const {
+  const fs::path file = kept_build_file(path_, map, build);
+  const Result<FileIdentity> identity = identity_of(file);
+  if (!identity) return nullptr;
+  return std::make_shared<const MapBuild>(
+      MapBuild{map, build, std::nullopt, nullptr, file, *identity, nullptr});
 }
 
 Result<std::shared_ptr<const MapLines>> Catalog::lines(const MapBuild& build) const {

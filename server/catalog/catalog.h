@@ -61,6 +61,9 @@ class Catalog {
 
   // The current build, or an old one. Null: there is none.
   std::shared_ptr<const MapBuild> build(const std::string& map, const std::string& build) const;
+  // One that kept_builds.h tells the place of. Null: there is none.
+  std::shared_ptr<const MapBuild> older_build(const std::string& map,
+                                              const std::string& build) const;
   // Current builds whose segments may pass within the radius.
   std::vector<std::shared_ptr<const MapBuild>> near(const GeoPoint& position,
                                                     double radius_m) const;

@@ -24,6 +24,7 @@ const std::vector<Route>& routes() {
       {"/openapi.yaml", {}, answer_openapi},
       {"/v1/maps", {}, answer_maps},
       {"/v1/maps/{map}", {}, answer_map},
+      {"/v1/maps/{map}/changes", {"from"}, answer_changes},
       {"/v1/segments", {"near", "radius_m"}, answer_segments_near},
       {"/v1/maps/{map}/builds/{build}/manifest", {}, answer_manifest},
       {"/v1/maps/{map}/builds/{build}/map", {}, answer_summary},

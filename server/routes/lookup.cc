@@ -15,6 +15,12 @@ Status check_id(const std::string& kind, const std::string& id) {
                "write 1 to 64 of A-Z a-z 0-9 . _ -, not starting with a dot"};
 }
 
+Status check_build(const std::string& build) {
+  if (is_digest(build)) return ok_status();
+  return Error{ErrorCode::invalid_input, "build '" + build + "'", "is not a valid build",
+               "write 32 lower-case hexadecimal digits, as /v1/maps does"};
+}
+
 Error absent(const std::string& what, const std::string& hint) {
   return {ErrorCode::not_found, what, "does not exist", hint};
 }
@@ -71,15 +77,23 @@ Result<std::shared_ptr<const ServedMap>> find_build(const Catalog& catalog, cons
   const auto current = catalog.maps().find(name);
   const bool is_there = current != catalog.maps().end();
   if (!is_there && !catalog.old_builds().contains(name)) return no_map(name);
-  if (!is_digest(build)) {
-    return Error{ErrorCode::invalid_input, "build '" + build + "'", "is not a valid build",
-                 "write 32 lower-case hexadecimal digits, as /v1/maps does"};
-  }
+  if (const Status digest = check_build(build); !digest) return digest.error();
   const std::shared_ptr<const MapBuild> found = catalog.build(name, build);
   if (found) return catalog.read(*found);
   if (!is_there) return no_map(name);
   return Error{ErrorCode::gone, "build " + build, "is not the map's current one",
                "use build " + current->second->build};
+}
+
+Result<std::shared_ptr<const ServedMap>> find_kept_build(const Catalog& catalog,
+                                                         const std::string& name,
+                                                         const std::string& build) {
+  if (const Status form = check_id("map", name); !form) return form.error();
+  if (const Status digest = check_build(build); !digest) return digest.error();
+  if (const auto found = catalog.build(name, build)) return catalog.read(*found);
+  if (const auto older = catalog.older_build(name, build)) return catalog.read(*older);
+  return Error{ErrorCode::gone, "build " + build, "is not kept any more",
+               "fetch the build that /v1/maps/" + name + " names"};
 }
 
 Result<const ServedSegment*> find_segment(const ServedMap& map, const std::string& id) {

@@ -16,6 +16,12 @@ Result<std::shared_ptr<const ServedMap>> find_map(const Catalog& catalog, const 
 Result<std::shared_ptr<const ServedMap>> find_build(const Catalog& catalog, const std::string& name,
                                                     const std::string& build);
 
+// The map of a build that the server still has: as find_build, or one of the directory's older
+// builds.
+Result<std::shared_ptr<const ServedMap>> find_kept_build(const Catalog& catalog,
+                                                         const std::string& name,
+                                                         const std::string& build);
+
 // The results below live as long as `map`.
 Result<const ServedSegment*> find_segment(const ServedMap& map, const std::string& id);
 Result<const std::vector<TileEntry>*> find_layer(const ServedSegment& segment,

@@ -11,6 +11,7 @@ Result<Response> answer_ready(const Call& call);          // /readyz
 Result<Response> answer_openapi(const Call& call);        // /openapi.yaml
 Result<Response> answer_maps(const Call& call);           // /v1/maps
 Result<Response> answer_map(const Call& call);            // /v1/maps/{map}
+Result<Response> answer_changes(const Call& call);        // /v1/maps/{map}/changes?from=B
 Result<Response> answer_segments_near(const Call& call);  // /v1/segments?near=LAT,LON&radius_m=R
 Result<Response> answer_manifest(const Call& call);       // .../manifest
 Result<Response> answer_summary(const Call& call);        // .../map

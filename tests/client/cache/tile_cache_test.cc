@@ -41,6 +41,23 @@ TEST_F(TileCacheTest, EveryPartOfTheKeyCounts) {
   }
 }
 
+TEST_F(TileCacheTest, WhatANewBuildHasInCommonWithTheOneBeforeIsFoundByItsDigest) {
+  const auto cache = open();
+  const Bytes content = numbered_content(7);
+  const std::string digest = digest_of(content);
+  cache->store({"m", "b1", "s", "l", 7}, content);
+  EXPECT_EQ(cache->find({"m", "b2", "s", "l", 7}), std::nullopt);  // of which nothing is known
+  EXPECT_EQ(cache->find({"m", "b2", "s", "l", 7}, digest_of(as_bytes("x"))), std::nullopt);
+  for (const CacheKey& other : {CacheKey{"M", "b2", "s", "l", 7}, CacheKey{"m", "b2", "S", "l", 7},
+                                CacheKey{"m", "b2", "s", "L", 7}, CacheKey{"m", "b2", "s", "l", 8}})
+    EXPECT_EQ(cache->find(other, digest), std::nullopt);
+  EXPECT_EQ(cache->find({"m", "b2", "s", "l", 7}, digest), content);
+  EXPECT_EQ(cache->find({"m", "b2", "s", "l", 7}), content);
+  EXPECT_EQ(cache->find({"m", "b1", "s", "l", 7}), std::nullopt);     // it moved
+  EXPECT_EQ(cache->find({"m", "b1", "s", "l", 7}, digest), content);  // and back
+  EXPECT_EQ(cache->bytes(), content.size());
+}
+
 TEST_F(TileCacheTest, StoringAgainReplaces) {
   const auto cache = open();
   cache->store(numbered_key(1), as_bytes("old content"));
@@ -130,7 +147,7 @@ TEST_F(TileCacheTest, AFileThatIsNoDatabaseIsSetAside) {
 
 TEST_F(TileCacheTest, ACacheOfAnotherLayoutIsSetAside) {
   open()->store(numbered_key(1), as_bytes("theirs"));
-  change_database("PRAGMA user_version = 2");
+  change_database("PRAGMA user_version = 3");
   const auto cache = open();
   EXPECT_EQ(cache->find(numbered_key(1)), std::nullopt);
   cache->store(numbered_key(1), as_bytes("ours"));
