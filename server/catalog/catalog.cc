@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/catalog/map_file.h"
+#include "server/catalog/signature_file.h"
 
 namespace milepost::server {
 namespace fs = std::filesystem;
@@ -67,6 +68,7 @@ class Opening {
   Opening(unsigned readers, const Catalog::Warn& warn) : readers_(readers), warn_(warn) {}
 
   void look_at(const fs::path& file) {
+    if (is_named_as_signature(file)) return;
     const Status content = check_map_file(file);
     if (!content && content.error().code == ErrorCode::invalid_input && !is_named_as_map(file)) {
       warn_(content.error().line());

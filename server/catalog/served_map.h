@@ -11,6 +11,7 @@
 #include "schema/store/map_store.h"
 #include "server/catalog/document.h"
 #include "server/catalog/reader_pool.h"
+#include "server/catalog/signature_file.h"
 
 namespace milepost::server {
 
@@ -32,6 +33,7 @@ class ServedMap {
 
   const std::string& name() const { return name_; }
   const std::string& build() const { return build_; }
+  const std::filesystem::path& file() const { return file_; }
   const std::map<std::string, ServedSegment>& segments() const { return segments_; }
   // Layer -> index, ascending; every layer, also those without cells.
   const std::map<std::string, std::vector<CellEntry>>& cells() const { return cells_; }
@@ -40,6 +42,9 @@ class ServedMap {
   const Document& summary() const { return summary_; }  // the build's map document
   const Document& areas() const { return areas_; }      // the index of the cells
   const Bounds& box() const { return box_; }            // of all segments' lines
+
+  // The text of the build's signature. Errors: those of read_signature_of.
+  Result<std::string> signature() const { return read_signature_of(file_, name_, build_); }
 
   // An encoded tile, checked against its entry in the index.
   // Errors: corrupt (it is not the one of the index), io.
