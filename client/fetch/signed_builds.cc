@@ -21,8 +21,7 @@ Error refused(const std::string& where, const std::string& what) {
 
 Status SignedBuilds::check(const MapVersion& version, const std::string& url,
                            const RetryPolicy& retry, const Stopped& stopped) {
-  const Status known = check_cached(version);
-  if (known.ok() || known.error().code == ErrorCode::gone) return known;
+  if (check_cached(version)) return ok_status();
   return with_retries(retry, stopped, [&] { return fetch(version, url, stopped); });
 }
 
