@@ -202,9 +202,7 @@ TEST_F(SignedBuildsTest, AnEarlierSignatureOfAServerIsRefusedWithoutTheOldMapInT
   map_ = FakeMap();
   map_.signature = signature_by(kOperator, kMonday_s);
   EXPECT_EQ(tiles_of(*open_source(), old_version).error().code, ErrorCode::gone);
-  EXPECT_EQ(
-      requests(is_of_build).back().find(old_version.build + "/manifest.sig") == std::string::npos,
-      false);
+  EXPECT_THAT(requests(is_of_build).back(), HasSubstr(old_version.build + "/manifest.sig"));
 }
 
 }  // namespace
