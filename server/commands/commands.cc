@@ -2,6 +2,8 @@
 
 namespace milepost::server {
 
-std::vector<Command> subcommands() { return {{"keygen", add_keygen}, {"sign", add_sign}}; }
+std::vector<Command> subcommands() {
+  return {{"keygen", add_keygen}, {"sign", add_sign}, {"publish", add_publish}};
+}
 
 }  // namespace milepost::server

@@ -9,6 +9,7 @@ namespace milepost::server {
 
 RunCommand add_keygen(CLI::App& app);
 RunCommand add_sign(CLI::App& app);
+RunCommand add_publish(CLI::App& app);
 
 // All of them.
 std::vector<Command> subcommands();

@@ -9,10 +9,10 @@
 #include "schema/base/file.h"
 #include "schema/base/output_file.h"
 #include "schema/document/signature.h"
-#include "server/catalog/catalog.h"
 #include "server/catalog/map_file.h"
 #include "server/catalog/signature_file.h"
 #include "server/commands/commands.h"
+#include "server/commands/whole_catalog.h"
 
 namespace milepost::server {
 namespace fs = std::filesystem;
@@ -77,17 +77,11 @@ Status sign_map(const fs::path& file, const SecretKey& key) {
 
 // The map files of a directory, as the server chooses them.
 Result<std::vector<fs::path>> maps_in(const std::string& directory) {
-  std::string left_out;
-  const auto catalog =
-      Catalog::open(directory, 1, [&](const std::string& line) { left_out = line; });
+  const auto catalog = open_whole_catalog(directory);
   if (!catalog) return catalog.error();
-  if ((*catalog)->left_out() > 0) {
-    return Error{ErrorCode::invalid_input, "", left_out, "nothing is signed"};
-  }
   std::vector<fs::path> files;
   for (const auto& [name, map] : (*catalog)->maps()) files.push_back(map->file());
-  if (!files.empty()) return files;
-  return Error{ErrorCode::not_found, directory, "holds no map", "give the directory of the maps"};
+  return files;
 }
 
 int sign(const std::string& program, const SignOptions& options) {
