@@ -8,7 +8,7 @@ PRAGMA user_version = 4;             -- of this layout; 3 found nothing by its d
 -- Tiles and cells as the server stores them, and the documents that tell which there are.
 -- A cell has segment '' and its number in the grid. A document has layer '': a segment's has number
 -- 0; the map's has segment '' and number 0; the index of the map's cells has segment '' and number
--- 1; the manifest has segment '' and number 2. Of a tile or a document the reader knows the digest:
+-- 1; the manifest has segment '' and number 2, its signature segment '' and number 3. Of a tile or a document the reader knows the digest:
 -- the build for the manifest, which lists those of the documents, which list those of the tiles.
 CREATE TABLE entries (
   id       INTEGER PRIMARY KEY,

@@ -4,12 +4,14 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <initializer_list>
 #include <iostream>
 #include <string>
 
 #include "server/catalog/reloader.h"
+#include "server/commands/commands.h"
 #include "server/descriptor_limit.h"
 #include "server/log/log.h"
 #include "server/options.h"
@@ -107,10 +109,22 @@ Status serve(const server::Options& options) {
   return ok_status();
 }
 
+// Whether the first argument names a subcommand.
+bool calls_subcommand(int argc, char** argv) {
+  return argc > 1 && std::ranges::any_of(server::subcommands(), [&](const Command& command) {
+           return command.name == argv[1];
+         });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   open_standard_descriptors();
+  if (calls_subcommand(argc, argv)) {
+    return run_program("milepost-server",
+                       "Serves maps; installs, rolls back, publishes and signs them.",
+                       server::subcommands(), argc, argv);
+  }
   const auto options = server::parse_options(argc, argv);
   if (const int* exit_code = std::get_if<int>(&options)) return *exit_code;
   ignore_failures_of_the_log();

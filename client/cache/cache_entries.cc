@@ -27,6 +27,9 @@ constexpr char kMapDocuments[] =
     " WHERE layer = '' AND segment = '' AND number = 0 AND build ="
     " (SELECT build FROM entries WHERE layer = '' AND segment = '' AND number = 0 AND map = e.map"
     "  ORDER BY last_use DESC, id DESC LIMIT 1) ORDER BY map";
+constexpr char kSignatures[] =
+    "SELECT map, build, segment, digest, content FROM entries"
+    " WHERE layer = '' AND segment = '' AND number = 3";
 
 void bind_key(sqlite::Statement& statement, const CacheKey& key) {
   statement.bind(1, std::string_view(key.map))
@@ -112,6 +115,8 @@ Result<std::vector<CachedDocument>> CacheEntries::segment_documents() {
 Result<std::vector<CachedDocument>> CacheEntries::map_documents() {
   return documents(kMapDocuments);
 }
+
+Result<std::vector<CachedDocument>> CacheEntries::signatures() { return documents(kSignatures); }
 
 Result<std::uint64_t> CacheEntries::bytes() {
   const Result<std::int64_t> total = database_.integer("SELECT bytes FROM total");

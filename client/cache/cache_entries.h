@@ -14,7 +14,8 @@
 
 namespace milepost {
 
-// The key of an entry. Everything under a build is immutable, so an entry is never stale.
+// The key of an entry. Everything under a build is immutable, so an entry is never stale,
+// except a signature.
 struct CacheKey {
   std::string map;
   std::string build;
@@ -32,6 +33,10 @@ struct CacheKey {
   // What the build's digest covers.
   static CacheKey manifest(std::string map, std::string build) {
     return {std::move(map), std::move(build), "", "", 2};
+  }
+  // Of the build; the only entry whose content may change.
+  static CacheKey signature(std::string map, std::string build) {
+    return {std::move(map), std::move(build), "", "", 3};
   }
   static CacheKey segment_document(std::string map, std::string build, std::string segment) {
     return {std::move(map), std::move(build), std::move(segment), "", 0};
@@ -76,6 +81,8 @@ class CacheEntries {
   Result<std::vector<CachedDocument>> segment_documents();
   // The map document of each map's most recently used build, in order of the map names.
   Result<std::vector<CachedDocument>> map_documents();
+  // The signatures of all builds.
+  Result<std::vector<CachedDocument>> signatures();
   Result<std::uint64_t> bytes();
 
  private:

@@ -158,6 +158,17 @@ std::vector<CachedDocument> TileCache::map_documents() {
   return documents;
 }
 
+std::vector<CachedDocument> TileCache::signatures() {
+  std::vector<CachedDocument> documents;
+  run(Kind::reading, [&](CacheEntries& entries) -> Status {
+    auto listed = entries.signatures();
+    if (!listed.ok()) return listed.error();
+    documents = std::move(listed).value();
+    return ok_status();
+  });
+  return documents;
+}
+
 std::uint64_t TileCache::bytes() {
   std::uint64_t bytes = 0;
   run(Kind::reading, [&](CacheEntries& entries) -> Status {

@@ -55,6 +55,8 @@ class TileCache {
   std::vector<CachedDocument> segment_documents();
   // The map document of each map's most recently used build, in order of the map names.
   std::vector<CachedDocument> map_documents();
+  // The signatures of all builds.
+  std::vector<CachedDocument> signatures();
 
   // The total size of the contents.
   std::uint64_t bytes();

@@ -2,7 +2,9 @@
 
 #include "client/fetch/file_source.h"
 #include "client/fetch/http_source.h"
+#include "schema/base/file.h"
 #include "schema/command/command.h"
+#include "schema/document/signing_key.h"
 
 namespace milepost {
 
@@ -18,11 +20,19 @@ void add_source_options(CLI::App& app, SourceOptions& options) {
   CLI::Option* limit =
       add_number(*group, "--cache-limit-mb", options.cache_limit_mb, "MB",
                  "Maximum cache size in megabytes; least recently used tiles are evicted", 1, 1e6);
+  CLI::Option* keys =
+      group
+          ->add_option("--key", options.keys,
+                       "Use only maps that are signed with this public key; several --key FILE\n"
+                       "accept any of them")
+          ->option_text("FILE.pub")
+          ->allow_extra_args(false);
   CLI::Option* map = group->add_option("--map", options.map, "Map file to read instead of a server")
                          ->option_text("FILE");
   server->needs(cache)->excludes(map);
   cache->needs(server);
   limit->needs(server);
+  keys->needs(server);
 }
 
 void require_source(const SourceOptions& options) {
@@ -40,6 +50,26 @@ void add_receiver_option(CLI::App& app, std::optional<double>& until_s) {
       ->option_text("S");
 }
 
+namespace {
+
+Result<std::vector<PublicKey>> read_keys(const std::vector<std::string>& files) {
+  std::vector<PublicKey> keys;
+  for (const std::string& file : files) {
+    const Result<std::string> text = read_text_file(file);
+    if (!text) return text.error();
+    const Result<PublicKey> key = public_key_from(*text);
+    if (!key) {
+      Error error = key.error();
+      error.where = file;
+      return error;
+    }
+    keys.push_back(*key);
+  }
+  return keys;
+}
+
+}  // namespace
+
 std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOptions& options) {
   std::vector<std::filesystem::path> inputs = files_of(drive);
   if (!options.map.empty()) inputs.emplace_back(options.map);
@@ -47,16 +77,16 @@ std::vector<std::filesystem::path> inputs_of(const Drive& drive, const SourceOpt
 }
 
 Result<std::shared_ptr<MapSource>> open_source(const SourceOptions& options) {
-  Result<std::shared_ptr<MapSource>> source = [&] {
-    if (!options.map.empty()) return open_file_source(options.map);
-    HttpSourceSettings settings;
-    settings.server_url = options.server;
-    settings.cache_directory = options.cache;
-    settings.cache_limit_bytes = static_cast<std::uint64_t>(options.cache_limit_mb * 1e6);
-    settings.stopped = stop_requested;
-    return open_http_source(settings);
-  }();
-  return source;
+  if (!options.map.empty()) return open_file_source(options.map);
+  Result<std::vector<PublicKey>> keys = read_keys(options.keys);
+  if (!keys) return keys.error();
+  HttpSourceSettings settings;
+  settings.server_url = options.server;
+  settings.cache_directory = options.cache;
+  settings.cache_limit_bytes = static_cast<std::uint64_t>(options.cache_limit_mb * 1e6);
+  settings.stopped = stop_requested;
+  settings.keys = std::move(*keys);
+  return open_http_source(settings);
 }
 
 }  // namespace milepost

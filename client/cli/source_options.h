@@ -17,6 +17,7 @@ struct SourceOptions {
   std::string server;
   std::string cache;
   std::string map;
+  std::vector<std::string> keys;  // files
   double cache_limit_mb = 1024;
 
   std::string name() const { return map.empty() ? server : map; }

@@ -7,6 +7,7 @@
 
 #include "client/fetch/file_source.h"
 #include "client/fetch/http_source.h"
+#include "schema/document/signing_key.h"
 #include "schema/geo/camera.h"
 #include "schema/geo/camera_pose.h"
 
@@ -150,6 +151,11 @@ Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
   settings.connect_timeout_s = server.connect_timeout_s;
   settings.stall_timeout_s = server.stall_timeout_s;
   settings.least_bytes_per_s = server.least_bytes_per_s;
+  for (const std::string& text : server.public_keys) {
+    const milepost::Result<PublicKey> key = public_key_from(text);
+    if (!key) return wrong("source", "public_keys: " + key.error().what, key.error().hint);
+    settings.keys.push_back(*key);
+  }
   return as_face(open_http_source(settings));
 }
 

@@ -69,6 +69,9 @@ BuildDocuments::Shared<Document> BuildDocuments::read(const Wanted<Document>& wa
 
 BuildDocuments::Shared<Manifest> BuildDocuments::manifest(const MapVersion& version,
                                                           const Asker& asker) {
+  const Status accepted = signed_builds_.check(version, build_url(version) + "/manifest.sig",
+                                               asker.retry, asker.stopped);
+  if (!accepted) return accepted.error();
   bool fetched = false;
   return read<Manifest>(
       {manifests_, CacheKey::manifest(version.map, version.build), build_url(version) + "/manifest",
@@ -124,8 +127,9 @@ BuildDocuments::Shared<AreasDocument> BuildDocuments::areas(const MapVersion& ve
       asker, fetched);
 }
 
-// Null if neither memory nor the cache has it.
+// Null if neither memory nor the cache has it, or it is not accepted.
 std::shared_ptr<const Manifest> BuildDocuments::cached_manifest(const MapVersion& version) {
+  if (!signed_builds_.check_cached(version)) return nullptr;
   const CacheKey key = CacheKey::manifest(version.map, version.build);
   if (auto known = manifests_.find(key)) return known;
   const auto cached = cache_.find(key, version.build);
@@ -163,12 +167,14 @@ std::vector<BuildDocuments::CachedSegment> BuildDocuments::cached_segments() {
 }
 
 void BuildDocuments::touch_segment(const MapVersion& version, const std::string& segment) {
+  cache_.touch(CacheKey::signature(version.map, version.build));
   cache_.touch(CacheKey::manifest(version.map, version.build));
   cache_.touch(CacheKey::map_document(version.map, version.build));
   cache_.touch(CacheKey::segment_document(version.map, version.build, segment));
 }
 
 void BuildDocuments::touch_areas(const MapVersion& version) {
+  cache_.touch(CacheKey::signature(version.map, version.build));
   cache_.touch(CacheKey::manifest(version.map, version.build));
   cache_.touch(CacheKey::areas_document(version.map, version.build));
   cache_.touch(CacheKey::map_document(version.map, version.build));

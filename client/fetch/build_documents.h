@@ -12,6 +12,7 @@
 #include "client/fetch/documents.h"
 #include "client/fetch/retry.h"
 #include "client/fetch/server_requests.h"
+#include "client/fetch/signed_builds.h"
 #include "schema/document/manifest.h"
 
 namespace milepost {
@@ -22,7 +23,8 @@ struct Asker {
   const Stopped& stopped;
 };
 
-// Every document is checked against its build before it is parsed or stored: the manifest by the
+// A build is accepted by its signature first, if there are keys (SignedBuilds). Every document is
+// checked against its build before it is parsed or stored: the manifest by the
 // build, which is its digest, the others by the manifest. What the cache holds and is not the
 // document is removed from it. Safe to use from several threads at once.
 class BuildDocuments {
@@ -33,14 +35,16 @@ class BuildDocuments {
   // `on_segment_fetched` is called after a segment's document was stored. REQUIRES: `requests` and
   // `cache` outlive it.
   BuildDocuments(std::string base_url, ServerRequests& requests, TileCache& cache,
-                 std::function<void()> on_segment_fetched)
+                 std::vector<PublicKey> keys, std::function<void()> on_segment_fetched)
       : base_url_(std::move(base_url)),
         requests_(requests),
         cache_(cache),
+        signed_builds_(std::move(keys), requests, cache),
         on_segment_fetched_(std::move(on_segment_fetched)) {}
 
-  // Errors of all: those of ServerRequests::try_covered_document; not_found (the build has no such
-  // segment); corrupt, also for a document of the build that this client cannot read.
+  // Errors of all: those of SignedBuilds::check and ServerRequests::try_covered_document; not_found
+  // (the build has no such segment); corrupt, also for a document of the build that this client
+  // cannot read.
   Shared<MapDescription> map(const MapVersion& version, const Asker& asker);
   Shared<SegmentDocument> segment(const MapVersion& version, const std::string& segment,
                                   const Asker& asker);
@@ -71,6 +75,7 @@ class BuildDocuments {
   const std::string base_url_;
   ServerRequests& requests_;
   TileCache& cache_;
+  SignedBuilds signed_builds_;
   const std::function<void()> on_segment_fetched_;
   DocumentMemory<Manifest> manifests_;
   DocumentMemory<MapDescription> maps_;

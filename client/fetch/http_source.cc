@@ -65,7 +65,7 @@ struct HttpShared {
         requests(std::move(parts.transport),
                  {.attempts = settings.attempts, .sleep = std::move(parts.sleep)}),
         fetcher(requests, *cache),
-        documents(base_url, requests, *cache, [this] { known_lines.forget(); }) {}
+        documents(base_url, requests, *cache, settings.keys, [this] { known_lines.forget(); }) {}
 
   const std::string base_url;
   const std::function<std::int64_t()> steady_s;

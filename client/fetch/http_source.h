@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "client/fetch/map_source.h"
 #include "client/fetch/stopped.h"
+#include "schema/document/signing_key.h"
 
 namespace milepost {
 
@@ -18,6 +20,8 @@ struct HttpSourceSettings {
   double least_bytes_per_s = 200;  // ... is aborted
   int attempts = 3;                // per request, with growing pauses between them
   Stopped stopped = {};            // cancels every call
+  // If not empty, only builds that one of these keys has signed are used (PROTOCOL.md 3).
+  std::vector<PublicKey> keys = {};
 };
 
 // Does not contact the server yet: with a filled cache a vehicle drives without one. Errors:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/catalog/map_file.h"
+#include "server/catalog/signature_file.h"
 
 namespace milepost::server {
 namespace fs = std::filesystem;
@@ -14,14 +15,14 @@ namespace {
 
 constexpr unsigned kMaxScanners = 8;
 
-// The entries of a directory that are not hidden, sorted by name.
+// The entries of a directory that are not hidden and no signatures, sorted by name.
 Result<std::vector<fs::path>> files_of(const fs::path& directory) {
   std::error_code error;
   std::vector<fs::path> files;
   fs::directory_iterator entry(directory, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const bool hidden = entry->path().filename().string().starts_with('.');
-    if (!hidden) files.push_back(entry->path());
+    if (!hidden && !is_named_as_signature(entry->path())) files.push_back(entry->path());
   }
   if (error == std::errc::no_such_file_or_directory) {
     return Error{ErrorCode::not_found, directory.string(), "there is no such directory",

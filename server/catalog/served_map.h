@@ -12,6 +12,7 @@
 #include "server/catalog/map_faults.h"
 #include "server/catalog/map_lines.h"
 #include "server/catalog/reader_pool.h"
+#include "server/catalog/signature_file.h"
 
 namespace milepost::server {
 
@@ -43,6 +44,9 @@ class ServedMap {
   const std::shared_ptr<const HeldFile>& file() const { return file_; }
   // Of the documents and the indices, about.
   std::uint64_t memory_bytes() const { return memory_bytes_; }
+
+  // The text of the build's signature. Errors: those of read_signature_of.
+  Result<std::string> signature() const { return read_signature_of(file_->path(), name_, build_); }
 
   // An encoded tile, checked against its entry in the index.
   // Errors: corrupt (it is not the one of the index), io.

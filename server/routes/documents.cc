@@ -20,6 +20,16 @@ Result<Response> answer_manifest(const Call& call) {
   return immutable_json((*map)->manifest());
 }
 
+// Not immutable, as all else of a build is: a map may be signed later, or with another key.
+Result<Response> answer_signature(const Call& call) {
+  const Result<std::shared_ptr<const ServedMap>> map =
+      find_build(call.catalog, call.path[0], call.path[1]);
+  if (!map) return map.error();
+  Result<std::string> signature = (*map)->signature();
+  if (!signature) return signature.error();
+  return current_text(document_of(std::move(*signature)), "text/plain; charset=utf-8");
+}
+
 Result<Response> answer_summary(const Call& call) {
   const Result<std::shared_ptr<const ServedMap>> map =
       find_build(call.catalog, call.path[0], call.path[1]);

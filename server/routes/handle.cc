@@ -27,6 +27,7 @@ const std::vector<Route>& routes() {
       {"/v1/maps/{map}/changes", {"from"}, answer_changes},
       {"/v1/segments", {"near", "radius_m"}, answer_segments_near},
       {"/v1/maps/{map}/builds/{build}/manifest", {}, answer_manifest},
+      {"/v1/maps/{map}/builds/{build}/manifest.sig", {}, answer_signature},
       {"/v1/maps/{map}/builds/{build}/map", {}, answer_summary},
       {"/v1/maps/{map}/builds/{build}/segments/{segment}", {}, answer_segment},
       {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles",

@@ -14,6 +14,7 @@ Result<Response> answer_map(const Call& call);            // /v1/maps/{map}
 Result<Response> answer_changes(const Call& call);        // /v1/maps/{map}/changes?from=B
 Result<Response> answer_segments_near(const Call& call);  // /v1/segments?near=LAT,LON&radius_m=R
 Result<Response> answer_manifest(const Call& call);       // .../manifest
+Result<Response> answer_signature(const Call& call);      // .../manifest.sig
 Result<Response> answer_summary(const Call& call);        // .../map
 Result<Response> answer_segment(const Call& call);        // .../segments/{segment}
 Result<Response> answer_tile_range(const Call& call);     // .../tiles?layer=L&from_m=A&to_m=B

@@ -56,19 +56,30 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
+namespace {
+
+void begin_town(MapWriter& writer, bool has_s2) {
+  must(writer.set_feature_json(R"({"extractor": "sift", "contrast": 0.04})"));
+  must(writer.add_layer("tracklets", R"({"tile_m": 50})"));
+  must(writer.add_layer("walls", "{}"));
+  std::vector<Successor> successors = {{"far", "village"}};
+  if (has_s2) successors.insert(successors.begin(), {"s2"});
+  must(writer.add_segment(segment("s1", 0.0006, 0, std::move(successors))));
+  if (has_s2) must(writer.add_segment(segment("s2", 0, 0.0009, {})));
+}
+
+const std::vector<AlongRange> kTownRanges = {{0, 60}, {50, 110}, {100, 160}, {150, 200}};
+
+}  // namespace
+
 TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes, unsigned seed) {
   Result<MapWriter> writer = MapWriter::create(file);
   if (!writer) throw std::runtime_error(writer.error().line());
-  must(writer->set_feature_json(R"({"extractor": "sift", "contrast": 0.04})"));
-  must(writer->add_layer("tracklets", R"({"tile_m": 50})"));
-  must(writer->add_layer("walls", "{}"));
-  must(writer->add_segment(segment("s1", 0.0006, 0, {{"s2"}, {"far", "village"}})));
-  must(writer->add_segment(segment("s2", 0, 0.0009, {})));
+  begin_town(*writer, true);
   TownMap town;
-  const std::vector<AlongRange> ranges = {{0, 60}, {50, 110}, {100, 160}, {150, 200}};
-  for (std::uint32_t i = 0; i < ranges.size(); ++i) {
+  for (std::uint32_t i = 0; i < kTownRanges.size(); ++i) {
     town.frames.push_back(arbitrary_bytes(frame_bytes + i, seed * 100 + i));
-    must(writer->add_tile("s1", "tracklets", i, ranges[i], 10 + i, town.frames.back()));
+    must(writer->add_tile("s1", "tracklets", i, kTownRanges[i], 10 + i, town.frames.back()));
   }
   for (const std::uint32_t cell : kTownCells) {
     const auto i = static_cast<unsigned>(town.cells.size());
@@ -77,6 +88,19 @@ TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes, u
   }
   town.build = finished(*writer);
   return town;
+}
+
+std::string write_changed_town(const std::filesystem::path& file, const TownMap& town) {
+  Result<MapWriter> writer = MapWriter::create(file);
+  if (!writer) throw std::runtime_error(writer.error().line());
+  begin_town(*writer, false);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const Bytes frame = i == 1 ? arbitrary_bytes(77, 7) : town.frames[i];
+    must(writer->add_tile("s1", "tracklets", i, kTownRanges[i], 10 + i, frame));
+  }
+  for (unsigned i = 0; i < 3; ++i)
+    must(writer->add_cell("walls", kTownCells[i], 20 + i, town.cells[i]));
+  return finished(*writer);
 }
 
 std::string write_walls(const std::filesystem::path& file,

@@ -41,6 +41,10 @@ struct TownMap {
 TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes = 1000,
                    unsigned seed = 1);
 
+// Writes the town with 77 other bytes for tile 1 of s1, without its tile 3, and without s2. Returns
+// the build.
+std::string write_changed_town(const std::filesystem::path& file, const TownMap& town);
+
 // Writes a map with nothing but a layer "walls" of these cells, each of them four bytes.
 // Returns its build.
 std::string write_walls(const std::filesystem::path& file, const std::vector<std::uint32_t>& cells);

@@ -38,6 +38,7 @@ MAY_INCLUDE = {
     "client/global/": ["client/global/", "client/estimation/", BASE, "schema/geo/", "schema/tile/"],
     "client/include/": [],
     "client/face/": ["client/face/", "client/global/", "client/localize/", "client/fetch/", BASE,
+                     "schema/document/signing_key.h",
                      "schema/geo/", "schema/tile/", "schema/feature/"],
     "client/examples/": [],
     "client/evaluate/report/": ["client/", "schema/"],

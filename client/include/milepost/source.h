@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace milepost::vehicle {
 
@@ -16,6 +17,9 @@ struct ServerSource {
   // A response with less than least_bytes_per_s over this time is aborted and requested again.
   double stall_timeout_s = 10;     // above 0, at most 3600
   double least_bytes_per_s = 200;  // above 0
+  // Contents of the operator's KEY.pub files (milepost-server keygen). If there are any, only maps
+  // that one of these keys has signed are used, from the server and from the cache.
+  std::vector<std::string> public_keys = {};
 };
 
 // A map file, read without a server or a cache.

@@ -123,6 +123,7 @@ ScriptedAnswer FakeMap::answer(const std::string& target) const {
   if (target == "/v1/maps") return ok(catalog_document());
   if (target == "/v1/maps/town") return ok(current_document());
   if (target == root + "/manifest") return ok(manifest());
+  if (target == root + "/manifest.sig" && !signature.empty()) return ok(signature);
   if (target == root + "/map") return ok(map_document());
   if (target == areas) return ok(areas_document());
   if (target == segment) return ok(segment_document());

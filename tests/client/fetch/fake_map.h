@@ -48,6 +48,7 @@ class FakeMap {
 
   std::vector<TileEntry> index;
   std::vector<CellEntry> cells;
+  std::string signature;  // of manifest.sig; empty: not signed
 };
 
 // An error response of a milepost server.

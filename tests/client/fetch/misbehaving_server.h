@@ -29,6 +29,7 @@ class MisbehavingServerTest : public ::testing::Test {
     settings.server_url = url;
     settings.cache_directory = cache_.path();
     settings.cache_limit_bytes = cache_limit_bytes_;
+    settings.keys = keys_;
     HttpSourceParts parts;
     parts.transport = make_curl_transport({5, 10});
     parts.sleep = [this](double pause_s, const Stopped&) { pauses_s_.push_back(pause_s); };
@@ -70,6 +71,7 @@ class MisbehavingServerTest : public ::testing::Test {
   FakeMap map_;
   TempFolder cache_;
   std::uint64_t cache_limit_bytes_ = 1ULL << 30U;
+  std::vector<PublicKey> keys_;  // of the sources opened next
   std::atomic<std::int64_t> now_s_ = 1000;
   std::vector<double> pauses_s_;
 

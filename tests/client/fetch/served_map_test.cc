@@ -32,8 +32,9 @@ const std::vector<Wall> kWalls = {{{49.001, 8.401}, {49.001, 8.402}, 0.25},
                                   {{49.003, 8.4049}, {49.003, 8.4051}, 0.5},
                                   {{49.004, 8.407}, {49.004, 8.408}, 0.25}};
 
-// A map with lengths that are not exact decimal numbers, written as by a mapper.
-std::string write_map(const std::filesystem::path& file) {
+// A map with lengths that are not exact decimal numbers, written as by a mapper. Tile 0 is longer
+// by `more` bytes.
+std::string write_map(const std::filesystem::path& file, std::size_t more = 0) {
   auto writer = MapWriter::create(file);
   EXPECT_TRUE(writer.ok());
   EXPECT_TRUE(writer->set_feature_json(to_json(FeatureParameters()).dump()).ok());
@@ -48,7 +49,9 @@ std::string write_map(const std::filesystem::path& file) {
   EXPECT_TRUE(writer->add_segment(segment).ok());
   for (std::uint32_t k = 0; k < 10; ++k) {
     const AlongRange along{20.0 * k + 1.0 / 3, 20.0 * k + 25 + 1.0 / 7};
-    EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, tile_bytes(k)).ok());
+    Bytes bytes = tile_bytes(k);
+    if (k == 0) bytes.resize(bytes.size() + more, 1);
+    EXPECT_TRUE(writer->add_tile("s1", "tracklets", k, along, 3, bytes).ok());
   }
   for (const WallTile& tile : tiles_of(kWalls)) {
     EXPECT_TRUE(writer->add_cell("walls", tile.cell, tile.walls.size(), encode_walls(tile)).ok());
@@ -66,10 +69,10 @@ class ServedMapTest : public ::testing::Test {
     auto catalog = server::Catalog::open(folder_ / "maps", server::CatalogSettings(),
                                          [](const std::string&) {});
     EXPECT_TRUE(catalog.ok());
+    catalog_ = std::make_shared<server::CurrentCatalog>(*catalog);
     server::ServerSettings settings;
     settings.threads = 2;
-    auto started =
-        server::Server::start(std::make_shared<server::CurrentCatalog>(*catalog), settings);
+    auto started = server::Server::start(catalog_, settings);
     EXPECT_TRUE(started.ok());
     server_ = std::move(started).value();
   }
@@ -97,8 +100,24 @@ class ServedMapTest : public ::testing::Test {
 
   TempFolder folder_;
   MapVersion version_;
+  std::shared_ptr<server::CurrentCatalog> catalog_;
   std::unique_ptr<server::Server> server_;
 };
+
+TEST_F(ServedMapTest, OfANewBuildOnlyWhatDiffersIsFetched) {
+  const auto source = open_source();
+  ASSERT_EQ(source->tiles(version_, "s1", "tracklets", {0, 200})->size(), 10U);
+  const MapVersion next = {"town", write_map(folder_ / "maps" / "town.mpm", 1)};
+  catalog_->replace(
+      *catalog_->now()->reloaded(server::Catalog::Clock::now(), [](const std::string&) {}));
+  ASSERT_NE(next.build, version_.build);
+  const SourceCounters before = source->counters();
+  const auto tiles = source->tiles(next, "s1", "tracklets", {0, 200});
+  ASSERT_TRUE(tiles.ok()) << tiles.error().line();
+  EXPECT_EQ(tiles->size(), 10U);
+  EXPECT_EQ(source->counters().tiles_fetched - before.tiles_fetched, 1U);
+  EXPECT_EQ(source->counters().tiles_from_cache - before.tiles_from_cache, 9U);
+}
 
 TEST_F(ServedMapTest, TheServerAndTheFileAnswerTheSame) {
   const auto file = std::move(open_file_source(folder_ / "maps" / "town.mpm")).value();
