@@ -22,7 +22,11 @@ Left out, each with the reason in the log, are files that cannot be served (empt
 damaged, unreadable, a name that cannot be used in a URL) and copies and partial files of maps, by
 their names (town.map.bak, town.map~, town.old, town.part). Of files with the same map name the one
 that ends in .map is served, or none. The directory is read once: restart the server to serve new
-maps.)";
+maps.
+Other commands, each with a --help of its own:
+  milepost-server publish    writes maps as plain files, for an object store or a static web server
+  milepost-server keygen     makes a key to sign maps with
+  milepost-server sign       signs maps, for vehicles that accept no others)";
 
 constexpr const char* kExamples = R"~(Examples:
   milepost-server --maps /srv/milepost --listen 0.0.0.0:8080
