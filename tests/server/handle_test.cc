@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "schema/base/digest.h"
+#include "schema/document/signature.h"
 #include "tests/server/responses.h"
 #include "tests/server/test_map.h"
 
@@ -425,6 +426,8 @@ TEST_F(HandleTest, EveryPathOfOpenapiIsAnswered) {
       {"{index}", "0"},
       {"{cell}", std::to_string(kTownCells[0])}};
   ASSERT_FALSE(openapi_paths().empty());
+  std::ofstream(folder_.path() / "town.map.sig")
+      << signature_text({"town", town_.build, 1796000000}, SecretKey(SecretKey::Seed{1}));
   for (std::string path : openapi_paths()) {
     for (const auto& [name, value] : values) {
       const std::size_t at = path.find(name);
