@@ -25,7 +25,13 @@ that ends in .map is served, or none.
 The directory is watched: a file that comes, goes or takes the place of another (by renaming, never
 written in place) is taken up within a second, on SIGHUP, and on directories of other hosts within
 30 s. Answers under way end on the build that they began on; a build that was replaced stays for
---keep-builds-s, then it is gone (410). /readyz tells which maps are left out or damaged, and why.)";
+--keep-builds-s, then it is gone (410). /readyz tells which maps are left out or damaged, and why.
+Other commands, each with a --help of its own:
+  milepost-server install    takes up new builds of maps in a directory
+  milepost-server rollback   makes an older build the current one again
+  milepost-server publish    writes maps as plain files, for an object store or a static web server
+  milepost-server keygen     makes a key to sign maps with
+  milepost-server sign       signs maps, for vehicles that accept no others)";
 
 constexpr const char* kExamples = R"~(Examples:
   milepost-server --maps /srv/milepost --listen 0.0.0.0:8080

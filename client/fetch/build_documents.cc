@@ -109,7 +109,8 @@ BuildDocuments::Shared<SegmentDocument> BuildDocuments::segment(const MapVersion
   bool fetched = false;
   auto document = read<SegmentDocument>(
       {segments_, CacheKey::segment_document(version.map, version.build, segment),
-       segment_url(version, segment), listed->second.bytes, listed->second.digest, parse},
+       store_.document_url(segment_url(version, segment)), listed->second.bytes,
+       listed->second.digest, parse},
       asker, fetched);
   if (fetched) on_segment_fetched_();
   return document;
@@ -122,8 +123,8 @@ BuildDocuments::Shared<AreasDocument> BuildDocuments::areas(const MapVersion& ve
   const ListedDocument& listed = (*of_build)->areas;
   bool fetched = false;
   return read<AreasDocument>(
-      {areas_, CacheKey::areas_document(version.map, version.build), areas_url(version),
-       listed.bytes, listed.digest, parse_areas_document},
+      {areas_, CacheKey::areas_document(version.map, version.build),
+       store_.document_url(areas_url(version)), listed.bytes, listed.digest, parse_areas_document},
       asker, fetched);
 }
 

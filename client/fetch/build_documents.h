@@ -13,6 +13,7 @@
 #include "client/fetch/retry.h"
 #include "client/fetch/server_requests.h"
 #include "client/fetch/signed_builds.h"
+#include "client/fetch/static_store.h"
 #include "schema/document/manifest.h"
 
 namespace milepost {
@@ -32,13 +33,15 @@ class BuildDocuments {
   template <class Document>
   using Shared = Result<std::shared_ptr<const Document>>;
 
-  // `on_segment_fetched` is called after a segment's document was stored. REQUIRES: `requests` and
-  // `cache` outlive it.
+  // `on_segment_fetched` is called after a segment's document was stored. REQUIRES: all references
+  // outlive it.
   BuildDocuments(std::string base_url, ServerRequests& requests, TileCache& cache,
-                 std::vector<PublicKey> keys, std::function<void()> on_segment_fetched)
+                 const StaticStore& store, std::vector<PublicKey> keys,
+                 std::function<void()> on_segment_fetched)
       : base_url_(std::move(base_url)),
         requests_(requests),
         cache_(cache),
+        store_(store),
         signed_builds_(std::move(keys), requests, cache),
         on_segment_fetched_(std::move(on_segment_fetched)) {}
 
@@ -75,6 +78,7 @@ class BuildDocuments {
   const std::string base_url_;
   ServerRequests& requests_;
   TileCache& cache_;
+  const StaticStore& store_;
   SignedBuilds signed_builds_;
   const std::function<void()> on_segment_fetched_;
   DocumentMemory<Manifest> manifests_;

@@ -156,6 +156,13 @@ NearbySegment nearby_of(JsonFields& fields, const Json& json) {
 
 }  // namespace
 
+bool is_of_static_store(std::string_view text) {
+  const Result<Json> json = read_ordered_json(text);
+  if (!json || !json->is_object()) return false;
+  const auto found = json->find("static");
+  return found != json->end() && found->is_boolean() && found->get<bool>();
+}
+
 Result<std::vector<MapVersion>> parse_catalog_document(std::string_view text,
                                                        const std::string& where) {
   JsonFields fields(where);
@@ -175,6 +182,19 @@ Result<std::vector<NearbySegment>> parse_nearby_document(std::string_view text,
   std::vector<NearbySegment> segments;
   for (const Json& entry : fields.array(json, "segments")) {
     segments.push_back(nearby_of(fields, entry));
+  }
+  if (!fields.ok()) return fields.error();
+  return segments;
+}
+
+Result<std::vector<PlacedSegment>> parse_placed_segments(std::string_view text,
+                                                         const std::string& where) {
+  JsonFields fields(where);
+  const Json json = fields.parsed(text);
+  std::vector<PlacedSegment> segments;
+  for (const Json& entry : fields.array(json, "segments")) {
+    segments.push_back({version_of(fields, entry, "map"), segment_id(fields, entry, "segment"),
+                        bounds_of(fields, fields.object(entry, "bounds"))});
   }
   if (!fields.ok()) return fields.error();
   return segments;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "client/fetch/http_source_parts.h"
 #include "client/fetch/nearby.h"
 #include "client/fetch/server_requests.h"
+#include "client/fetch/static_store.h"
 #include "client/fetch/tile_fetcher.h"
 #include "client/fetch/tile_request.h"
 #include "schema/base/digits.h"
@@ -65,13 +67,15 @@ struct HttpShared {
         requests(std::move(parts.transport),
                  {.attempts = settings.attempts, .sleep = std::move(parts.sleep)}),
         fetcher(requests, *cache),
-        documents(base_url, requests, *cache, settings.keys, [this] { known_lines.forget(); }) {}
+        documents(base_url, requests, *cache, store, settings.keys,
+                  [this] { known_lines.forget(); }) {}
 
   const std::string base_url;
   const std::function<std::int64_t()> steady_s;
   const std::unique_ptr<TileCache> cache;
   ServerRequests requests;
   TileFetcher fetcher;
+  StaticStore store;
   BuildDocuments documents;
   LineMemory known_lines;
   std::atomic<std::int64_t> server_away_until_s = 0;
@@ -87,7 +91,8 @@ class HttpSource : public MapSource {
         cache_(*shared_->cache),
         requests_(shared_->requests),
         fetcher_(shared_->fetcher),
-        documents_(shared_->documents) {
+        documents_(shared_->documents),
+        store_(shared_->store) {
     retry_.attempts = attempts;
   }
 
@@ -95,25 +100,44 @@ class HttpSource : public MapSource {
                                                    double radius_m) override {
     const Status checked = check_near_query(position, radius_m);
     if (!checked.ok()) return checked.error();
+    if (const auto listed = store_.segments_at(shared_->steady_s())) {
+      return near_among(*listed, position, radius_m);
+    }
     const std::string url =
         base_url_ + "/v1/segments?near=" + shortest_fixed(position.latitude_deg) + "," +
         shortest_fixed(position.longitude_deg) + "&radius_m=" + shortest_fixed(radius_m);
-    const auto parse = [this, &url](const std::string& text) {
+    StaticStore::Segments listed;  // by a static store, which does not look at the position
+    const auto parse = [&](const std::string& text) -> Result<std::vector<NearbySegment>> {
+      if (is_of_static_store(text)) {
+        auto segments = parse_placed_segments(text, url);
+        if (!segments.ok()) return segments.error();
+        listed = std::make_shared<const std::vector<PlacedSegment>>(std::move(*segments));
+        store_.note(true);
+        store_.list(listed, shared_->steady_s());
+        return std::vector<NearbySegment>();
+      }
       auto segments = parse_nearby_document(text, url);
-      if (segments.ok()) shared_->known_lines.forget();
+      if (!segments.ok()) return segments;
+      store_.note(false);
+      shared_->known_lines.forget();
       return segments;
     };
-    return current_list<NearbySegment>(
-        url, [&] { return segments_known_near(position, radius_m); }, parse);
+    auto near = current_list<NearbySegment>(
+        {url}, [&] { return segments_known_near(position, radius_m); }, parse);
+    if (listed == nullptr) return near;
+    return near_among(*listed, position, radius_m);
   }
 
   Result<std::vector<MapVersion>> maps() override {
     const std::string url = base_url_ + "/v1/maps";
-    const auto parse = [&url](const std::string& text) {
-      return parse_catalog_document(text, url);
+    const auto parse = [&](const std::string& text) {
+      auto maps = parse_catalog_document(text, url);
+      if (maps.ok()) store_.note(is_of_static_store(text));
+      return maps;
     };
+    // A plain web server answers for a folder as it likes.
     return current_list<MapVersion>(
-        url, [this] { return documents_.cached_maps(); }, parse);
+        {url, StaticStore::index_url(url)}, [this] { return documents_.cached_maps(); }, parse);
   }
 
   Result<MapDescription> describe(const MapVersion& version) override {
@@ -139,7 +163,9 @@ class HttpSource : public MapSource {
     const std::string tiles_url = documents_.segment_url(version, segment) + "/tiles";
     auto found = fetcher_.fetch(
         {version.map, version.build, segment, layer, 0}, expected_tiles(wanted),
-        [&](const auto& missing) { return request_for_tiles(tiles_url, layer, **index, missing); },
+        [&](const auto& missing) {
+          return request_for_tiles(tiles_url, layer, **index, askable(missing));
+        },
         stopped_);
     if (!found.ok()) return found.error();
     std::vector<EncodedTile> tiles;
@@ -161,7 +187,9 @@ class HttpSource : public MapSource {
     const std::string layer_url = documents_.areas_url(version) + "/" + escaped_for_url(layer);
     auto found = fetcher_.fetch(
         {version.map, version.build, "", layer, 0}, expected_tiles(wanted),
-        [&](const auto& missing) { return request_for_cells(layer_url, **index, missing); },
+        [&](const auto& missing) {
+          return request_for_cells(layer_url, **index, askable(missing));
+        },
         stopped_);
     if (!found.ok()) return found.error();
     std::vector<EncodedCell> tiles;
@@ -211,7 +239,7 @@ class HttpSource : public MapSource {
     const std::string tiles_url = documents_.segment_url(version, segment) + "/tiles";
     return fetcher_.fetch_once(
         {version.map, version.build, segment, layer, 0},
-        request_for_tiles(tiles_url, layer, **index, missing),
+        request_for_tiles(tiles_url, layer, **index, askable(missing)),
         [&](std::uint32_t number, const Bytes& tile) {
           take({number, tile});
           return missing.contains(number);
@@ -234,6 +262,12 @@ class HttpSource : public MapSource {
 
  private:
   Asker asker() const { return {retry_, stopped_}; }
+
+  // Of missing tiles those that one request may be for: a static store answers no query, so that
+  // each is requested by its own URL.
+  std::set<std::uint32_t> askable(const std::set<std::uint32_t>& missing) const {
+    return store_.is_known() ? std::set<std::uint32_t>{*missing.begin()} : missing;
+  }
 
   static CheckedRequest request_for_tiles(const std::string& tiles_url, const std::string& layer,
                                           const std::vector<TileEntry>& index,
@@ -261,11 +295,12 @@ class HttpSource : public MapSource {
     return {url, expected_tiles(request.expected)};
   }
 
-  // The server's current list; while the server cannot be reached or something else answers in its
-  // place, the list known without it, if not empty.
+  // The server's current list, from the first of the URLs at which a milepost server or a static
+  // store answers; while the server cannot be reached or something else answers in its place, the
+  // list known without it, if not empty.
   template <class Item>
   Result<std::vector<Item>> current_list(
-      const std::string& url, const std::function<std::vector<Item>()>& known_items,
+      const std::vector<std::string>& urls, const std::function<std::vector<Item>()>& known_items,
       const std::function<Result<std::vector<Item>>(const std::string& text)>& parse) {
     std::vector<Item> items;
     if (shared_->steady_s() < shared_->server_away_until_s) items = known_items();
@@ -277,7 +312,12 @@ class HttpSource : public MapSource {
       return ok_status();
     };
     const Status fetched = with_retries(retry_, stopped_, [&] {
-      Attempt attempt = requests_.try_document(url, read, stopped_);
+      Attempt attempt = requests_.try_document(urls.front(), read, stopped_);
+      for (std::size_t i = 1; i < urls.size() && attempt.is_foreign; ++i) {
+        if (const Attempt other = requests_.try_document(urls[i], read, stopped_); other.status) {
+          attempt = other;
+        }
+      }
       if (is_unavailable(attempt.status)) {
         shared_->server_away_until_s = shared_->steady_s() + kServerAway_s;
         items = known_items();
@@ -286,6 +326,28 @@ class HttpSource : public MapSource {
     });
     if (!fetched.ok()) return fetched.error();
     return items;
+  }
+
+  // The segments of a static store near a position, by their documents. Those whose documents
+  // cannot be used are left out, but where there are no others they are the error.
+  Result<std::vector<NearbySegment>> near_among(const std::vector<PlacedSegment>& listed,
+                                                const GeoPoint& position, double radius_m) {
+    std::vector<KnownLine> lines;
+    std::optional<Error> unusable;
+    for (const PlacedSegment& placed : listed) {
+      if (!may_be_within(placed.bounds, position, radius_m)) continue;
+      const Result<SegmentDescription> described = segment(placed.version, placed.segment);
+      if (described.ok()) {
+        add_line(placed.version, *described, lines);
+        continue;
+      }
+      const ErrorCode code = described.error().code;
+      if (code == ErrorCode::unavailable || code == ErrorCode::cancelled) return described.error();
+      unusable = described.error();
+    }
+    std::vector<NearbySegment> near = lines_near(lines, position, radius_m);
+    if (near.empty() && unusable) return *unusable;
+    return near;
   }
 
   std::vector<NearbySegment> segments_known_near(const GeoPoint& position, double radius_m) {
@@ -342,6 +404,7 @@ class HttpSource : public MapSource {
   ServerRequests& requests_;
   TileFetcher& fetcher_;
   BuildDocuments& documents_;
+  StaticStore& store_;
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ struct RetryPolicy {
 struct Attempt {
   Status status;
   double retry_after_s = 0;  // the pause that a busy server requested; 0 if none
+  bool is_foreign = false;   // something other than a milepost server answered
 };
 
 // Runs `attempt` until it returns something other than `unavailable`, the attempts are used up, or

@@ -29,10 +29,9 @@ Attempt ServerRequests::try_document(const std::string& url, const DocumentReade
   std::string text;
   const HttpAnswer answer = get_text(url, kMaxDocumentBytes, Caches::allowed, text, stopped);
   Status done = answer.status.ok() ? read(text) : answer.status;
-  if (!done.ok() && done.error().code == ErrorCode::corrupt) {
-    done = foreign_answer(url, done.error().what);
-  }
-  return {std::move(done), answer.retry_after_s};
+  const bool is_other = !done.ok() && done.error().code == ErrorCode::corrupt;
+  if (is_other) done = foreign_answer(url, done.error().what);
+  return {std::move(done), answer.retry_after_s, answer.is_foreign || is_other};
 }
 
 ServerRequests::DocumentAttempt ServerRequests::try_covered_document(

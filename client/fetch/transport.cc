@@ -169,22 +169,26 @@ std::optional<Error> error_of_problem(const std::string& url, long status,
   }
 }
 
-// The error for a response that was not passed to the sink.
-Error error_of_refusal(CURL* handle, const std::string& url, const std::string& body) {
+HttpAnswer foreign(const std::string& url, const std::string& what) {
+  return {.status = foreign_answer(url, what), .is_foreign = true};
+}
+
+// The outcome of a response that was not passed to the sink.
+HttpAnswer refused_answer(CURL* handle, const std::string& url, const std::string& body) {
   const long status = http_status(handle);
   const std::string type = media_type(handle);
   const auto problem = read_json(type == "application/problem+json" ? body : "");
   const bool is_problem = problem.ok() && problem->is_object();
   if (is_problem) {
-    if (const auto error = error_of_problem(url, status, *problem)) return *error;
+    if (const auto error = error_of_problem(url, status, *problem)) return {*error};
   }
   const std::string number = "HTTP status " + std::to_string(status);
   if (status == 429 || (status >= 500 && status != 511)) {  // 511: the network requires a login
-    return {ErrorCode::unavailable, url,
-            "the server is unavailable, " + number + (is_problem ? detail_of(*problem) : ""),
-            "try again later"};
+    return {Error{ErrorCode::unavailable, url,
+                  "the server is unavailable, " + number + (is_problem ? detail_of(*problem) : ""),
+                  "try again later"}};
   }
-  return foreign_answer(url, type.empty() ? number : number + ", " + type);
+  return foreign(url, type.empty() ? number : number + ", " + type);
 }
 
 struct UrlCloser {
@@ -212,20 +216,22 @@ bool is_http(CURLU* url) {
   return scheme == "http" || scheme == "https";
 }
 
-Error error_of_curl(const std::string& url, CURLcode code, const char* message) {
+HttpAnswer failed_answer(const std::string& url, CURLcode code, const char* message) {
   const std::string what = message[0] != '\0' ? message : curl_easy_strerror(code);
   switch (code) {
     case CURLE_URL_MALFORMAT:
     case CURLE_UNSUPPORTED_PROTOCOL: {  // also a response that is not HTTP
       const Url asked = parsed_url(url);
-      if (asked != nullptr && is_http(asked.get())) return foreign_answer(url, what);
-      return {ErrorCode::invalid_input, url, what, "check that the URL is a milepost server's"};
+      if (asked != nullptr && is_http(asked.get())) return foreign(url, what);
+      return {
+          Error{ErrorCode::invalid_input, url, what, "check that the URL is a milepost server's"}};
     }
     case CURLE_TOO_MANY_REDIRECTS:
     case CURLE_WEIRD_SERVER_REPLY:
-      return foreign_answer(url, what);
+      return foreign(url, what);
     default:
-      return {ErrorCode::unavailable, url, what, "check that the server runs and can be reached"};
+      return {Error{ErrorCode::unavailable, url, what,
+                    "check that the server runs and can be reached"}};
   }
 }
 
@@ -262,11 +268,10 @@ class CurlTransport : public Transport {
                               : nullptr);
     curl_easy_setopt(handle, CURLOPT_HTTPHEADER, headers.get());
     const std::optional<CURLcode> code = run(connection, stopped);
-    HttpAnswer answer;
+    HttpAnswer answer = code ? answer_of(handle, url, reception, *code, message.data())
+                             : HttpAnswer{cancelled(url)};
     answer.body_bytes = reception.received_bytes;
     answer.retry_after_s = retry_after_s(handle);
-    answer.status =
-        code ? status_of(handle, url, reception, *code, message.data()) : cancelled(url);
     curl_easy_reset(handle);  // clears pointers to locals; connections stay open
     return answer;
   }
@@ -294,20 +299,21 @@ class CurlTransport : public Transport {
     return code;
   }
 
-  static Status status_of(CURL* handle, const std::string& url, const Reception& reception,
-                          CURLcode code, const char* message) {
+  // Without body_bytes and retry_after_s.
+  static HttpAnswer answer_of(CURL* handle, const std::string& url, const Reception& reception,
+                              CURLcode code, const char* message) {
     if (reception.refused.has_value()) {
       Error error = *reception.refused;
       if (error.where.empty()) error.where = url;
-      return error;
+      return {error};
     }
     // CURLE_WRITE_ERROR: the callback aborted a body that is too long for an error response.
     const bool answered = code == CURLE_OK || code == CURLE_WRITE_ERROR;
     if (answered && !is_for_the_sink(handle)) {
-      return error_of_refusal(handle, url, reception.refusal);
+      return refused_answer(handle, url, reception.refusal);
     }
-    if (code == CURLE_OK) return ok_status();
-    return error_of_curl(url, code, message);
+    if (code == CURLE_OK) return {};
+    return failed_answer(url, code, message);
   }
 
   void set_options(CURL* handle, const std::string& url, Reception& reception,

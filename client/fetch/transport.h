@@ -27,6 +27,7 @@ struct HttpAnswer {
   Status status;
   double retry_after_s = 0;      // requested by a busy server; 0 if not
   std::uint64_t body_bytes = 0;  // received, also of an interrupted response
+  bool is_foreign = false;       // `status` is a foreign_answer
 };
 
 // The error for a response from something other than a milepost server: a network's login page, a

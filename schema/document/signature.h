@@ -1,4 +1,4 @@
-// The detached signature of a build: who vouches for it, under which name (FORMAT.md 7.8).
+// The detached signature of a build: who vouches for it, under which name (FORMAT.md 8).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The operator's keys: Ed25519 (RFC 8032), as one line of text in a file each (FORMAT.md 7.8).
+// The operator's keys: Ed25519 (RFC 8032), as one line of text in a file each (FORMAT.md 8).
 #pragma once
 
 #include <array>

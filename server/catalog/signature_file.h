@@ -1,4 +1,4 @@
-// The signature of a map, a file beside it: "town.map.sig" of "town.map" (FORMAT.md 7.8).
+// The signature of a map, a file beside it: "town.map.sig" of "town.map" (FORMAT.md 8).
 #pragma once
 
 #include <filesystem>

@@ -9,6 +9,7 @@
 #include "schema/base/json.h"
 #include "schema/document/manifest.h"
 #include "schema/document/mapping_record.h"
+#include "schema/document/signature.h"
 #include "schema/feature/pca_projection.h"
 #include "schema/feature/types.h"
 #include "tests/fuzz/check.h"
@@ -32,6 +33,24 @@ void read_mapping_record(std::string_view text) {
   if (!record) return;
   const std::string written = mapping_document(*record);
   fuzz::check(mapping_document(*mapping_record_from(written)) == written);
+}
+
+// Only the form that is written is read, and by no key that did not sign.
+void read_signature(std::string_view text) {
+  static const SecretKey kKey(SecretKey::Seed{1});
+  static const SecretKey kOtherKey(SecretKey::Seed{2});
+  const Result<Signature> signature = signature_from(text);
+  if (!signature) return;
+  fuzz::check(!signature->is_by(kOtherKey.public_key()));
+  if (!signature->is_by(kKey.public_key())) return;
+  fuzz::check(signature_text(signature->about, kKey) == text);
+}
+
+void read_key(std::string_view text) {
+  const Result<PublicKey> open = public_key_from(text);
+  if (open) fuzz::check(public_key_from(open->text())->bytes == open->bytes);
+  const Result<SecretKey> secret = secret_key_from(text);
+  if (secret) fuzz::check(secret_key_from(secret->text())->text() == secret->text());
 }
 
 // With the parameters of its features and layers.
@@ -69,6 +88,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 'n':
       static_cast<void>(parse_nearby_document(text, "fuzz"));
+      break;
+    case 't':
+      static_cast<void>(is_of_static_store(text));
+      static_cast<void>(parse_placed_segments(text, "fuzz"));
+      break;
+    case 'g':
+      read_signature(text);
+      break;
+    case 'k':
+      read_key(text);
       break;
     case 'm':
       read_map(text);

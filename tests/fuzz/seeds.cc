@@ -15,6 +15,7 @@
 
 #include "schema/base/file.h"
 #include "schema/document/mapping_record.h"
+#include "schema/document/signature.h"
 #include "schema/feature/types.h"
 #include "schema/store/sqlite.h"
 #include "schema/tile/codec.h"
@@ -100,6 +101,15 @@ void write_documents(const SeedFolder& seeds) {
   const testing::FakeMap map;
   seeds.write("documents", "catalog", "c" + map.catalog_document());
   seeds.write("documents", "near", "n" + map.near_document());
+  seeds.write("documents", "placed",
+              "t"
+              R"({"segments":[{"map":"town","build":"00112233445566778899aabbccddeeff",)"
+              R"("segment":"s1","bounds":{"west_deg":8,"south_deg":49,"east_deg":9,)"
+              R"("north_deg":50}}],"static":true})");
+  const SecretKey key(SecretKey::Seed{1});
+  seeds.write("documents", "signature", "g" + signature_text({"town", map.build(), 1}, key));
+  seeds.write("documents", "public_key", "k" + key.public_key().text());
+  seeds.write("documents", "secret_key", "k" + key.text());
   seeds.write("documents", "map", "m" + map.map_document());
   seeds.write("documents", "manifest", "d" + map.manifest());
   seeds.write("documents", "segment", "s" + map.segment_document());

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "schema/base/digest.h"
+#include "schema/document/signature.h"
 #include "tests/server/responses.h"
 #include "tests/server/test_map.h"
 
@@ -425,6 +426,8 @@ TEST_F(HandleTest, EveryPathOfOpenapiIsAnswered) {
       {"{index}", "0"},
       {"{cell}", std::to_string(kTownCells[0])}};
   ASSERT_FALSE(openapi_paths().empty());
+  std::ofstream(folder_.path() / "town.map.sig")
+      << signature_text({"town", town_.build, 1796000000}, SecretKey(SecretKey::Seed{1}));
   for (std::string path : openapi_paths()) {
     for (const auto& [name, value] : values) {
       const std::size_t at = path.find(name);
@@ -433,6 +436,7 @@ TEST_F(HandleTest, EveryPathOfOpenapiIsAnswered) {
     if (path.ends_with("/walls")) path += "?bbox=8,49,9,50";
     if (path.ends_with("/tiles")) path += "?layer=tracklets&from_m=0&to_m=1";
     if (path == "/v1/segments") path += "?near=49,8&radius_m=1";
+    if (path.ends_with("/changes")) path += "?from=" + town_.build;
     EXPECT_EQ(get(path).status, 200U) << path;
   }
 }
