@@ -99,4 +99,6 @@ Result<Bytes> ServedMap::cell(const std::string& layer, const CellEntry& entry) 
                    file_.string() + ", layer " + layer + ", cell " + std::to_string(entry.cell));
 }
 
+Result<std::string> ServedMap::mapping() const { return readers_->lend()->mapping_document(); }
+
 }  // namespace milepost::server
