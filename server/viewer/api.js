@@ -33,6 +33,7 @@ function startNext() {
     task().finally(() => {
       --running;
       startNext();
+      tell();
     });
   }
 }
@@ -70,7 +71,7 @@ async function request(path, signal) {
   throw new Failure(response.status, problem.detail || `The server answers with ${response.status}.`);
 }
 
-const answer = (path, read, signal) => queued(() => request(path, signal).then(read), signal).finally(() => tell());
+const answer = (path, read, signal) => queued(() => request(path, signal).then(read), signal);
 
 export const getJson = (path, {signal} = {}) => answer(path, (response) => response.json(), signal);
 export const getText = (path, {signal} = {}) => answer(path, (response) => response.text(), signal);

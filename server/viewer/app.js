@@ -35,7 +35,7 @@ const state = {maps: [], map: null, segment: null, found: null, colouring: colou
 const map = createMap('map', {url: setting('tiles-url'), attribution: setting('tiles-attribution')});
 const boxes = new Boxes(map);
 const network = new Network(map, state.colouring, {changed: networkChanged, told: tell, failed});
-const places = new Places(map, network, async () => boxes.inView().filter(({document: {layers}}) => layers.includes('walls')).map(({of}) => of), failed);
+const places = new Places(map, network, () => boxes.mayBeInView().filter(({document: {layers}}) => layers.includes('walls')).map(({of}) => of), failed);
 const marker = L.circleMarker([0, 0], {radius: 7, weight: 3, fillOpacity: 0.2, interactive: false});
 
 function failed(failure) {
@@ -44,15 +44,19 @@ function failed(failure) {
   else if (failure.status !== 0) notice(failure.message);
 }
 
-function notice(text) {
-  byId('notice').hidden = !text;
-  byId('notice').textContent = text;
+// What happened stays until something else is chosen; before that and after it there is what the view needs.
+const notices = {news: '', view: ''};
+function notice(text, kind = 'news') {
+  notices[kind] = text;
+  const shown = notices.news || notices.view;
+  byId('notice').hidden = !shown;
+  byId('notice').textContent = shown;
 }
 
 function tell({tooWide, total, shown}) {
-  if (tooWide) notice(state.maps.length ? 'Zoom in to see the roads.' : '');
-  else if (shown < total) notice(`Here are ${count(total, 'segment')}; the ${number(shown)} nearest to the middle are drawn. Zoom in for the rest.`);
-  else notice('');
+  const isPart = shown < total;
+  notice(tooWide && state.maps.length ? 'Zoom in to see the roads.'
+    : isPart ? `Here are ${count(total, 'segment')}; the ${number(shown)} nearest to the middle are drawn. Zoom in for the rest.` : '', 'view');
 }
 
 function networkChanged() {
@@ -90,11 +94,11 @@ async function describe(of) {
 }
 
 // Asynchronous panels show only if they are still wanted when they are ready.
-let shown = 0;
+let panelTurn = 0;
 async function showPanel({toTop = false} = {}) {
-  const turn = ++shown;
+  const turn = ++panelTurn;
   const nodes = await panelNodes().catch((failure) => [h('p', {class: 'empty'}, failure.message)]);
-  if (turn !== shown) return;
+  if (turn !== panelTurn) return;
   byId('content').replaceChildren(...nodes);
   if (toTop) byId('panel').scrollTop = 0;
   const title = state.segment?.segment ?? state.map?.map;
@@ -142,12 +146,20 @@ function chooseNothing() {
   clearSegment();
 }
 
+// The bounds of a map, or else of its first segment; null without any.
+async function boundsOfMap(of) {
+  const described = await describe(of), bounds = boundsOf(described, map.getCenter().lng);
+  if (bounds || !described.segments.length) return bounds;
+  return network.boundsOf(await loaded({...of, segment: described.segments[0]}));
+}
+
 async function chooseMap(of, {isFitted = true} = {}) {
+  notice('');
   Object.assign(state, {map: of, found: null});
   clearSegment();
   if (!isFitted) return;
   try {
-    const bounds = boundsOf(await describe(of), map.getCenter().lng);
+    const bounds = await boundsOfMap(of);
     if (bounds && state.map === of) map.fitBounds(bounds, fit());
   } catch (failure) {
     failed(failure);
@@ -158,6 +170,7 @@ async function chooseMap(of, {isFitted = true} = {}) {
 const loaded = (of) => network.load(of).catch((failure) => isAborted(failure) ? network.load(of) : Promise.reject(failure));
 
 async function chooseSegment(of, {isFitted = true} = {}) {
+  notice('');
   try {
     const segment = await loaded({map: of.map, build: of.build, segment: of.segment});
     Object.assign(state, {segment, map: mapNamed(of.map)});
@@ -188,7 +201,7 @@ async function search(text) {
 function writeAddress() {
   const {lat, lng} = map.getCenter();
   address.write({view: {zoom: map.getZoom(), lat, lng: wrappedLongitude(lng)}, map: state.map?.map,
-    segment: state.segment?.segment, colour: start.colour || state.colouring !== colouringOf(null) ? state.colouring.id : null});
+    segment: state.segment?.segment, colour: state.colouring === colouringOf(null) ? null : state.colouring.id});
 }
 
 // Reads which maps there are; those that were built anew or are gone are forgotten.
@@ -204,8 +217,8 @@ async function readCatalog() {
   const {map: before, segment} = state;
   state.map = before && (mapNamed(before.map) ?? null);
   if (segment && builds.get(segment.map) !== segment.build) {
-    notice(`The map ${segment.map} was built anew.`);
     clearSegment();
+    notice(builds.has(segment.map) ? `The map ${segment.map} was built anew.` : `The map ${segment.map} is no longer served.`);
   } else {
     showPanel();
   }
@@ -281,8 +294,8 @@ async function showFirst() {
   if (of && start.segment) return chooseSegment({...of, segment: start.segment}, {isFitted: !start.view});
   if (of) return chooseMap(of, {isFitted: !start.view});
   if (start.view) return;
-  const described = await Promise.all(state.maps.slice(0, 24).map((each) => describe(each).catch(() => null)));
-  const all = described.filter(Boolean).map((each) => boundsOf(each, 0)).filter(Boolean);
+  const found = await Promise.all(state.maps.slice(0, 24).map((each) => boundsOfMap(each).catch(() => null)));
+  const all = found.filter(Boolean);
   if (all.length && !state.map) map.fitBounds(all.reduce((sum, bounds) => sum.extend(bounds), L.latLngBounds(all[0].getSouthWest(), all[0].getNorthEast())), fit());
 }
 

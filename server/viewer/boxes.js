@@ -12,9 +12,11 @@ const NEAR_ZOOM = 15;
 
 const keyOf = ({map, build}) => `${map}/${build}`;
 
-// A map's bounds in the copy of the world nearest to a longitude; null for a map of nothing.
+// A map's bounds in the copy of the world nearest to a longitude; null for a map of nothing, and for one across longitude
+// 180, whose numbers lie around the world.
 export function boundsOf({bounds: {west_deg, south_deg, east_deg, north_deg}}, longitude) {
-  if (west_deg === 0 && east_deg === 0 && south_deg === 0 && north_deg === 0) return null;
+  const isNothing = west_deg === 0 && east_deg === 0 && south_deg === 0 && north_deg === 0;
+  if (isNothing || east_deg - west_deg > 180) return null;
   const west = nearLongitude(west_deg, longitude), east = west + (east_deg - west_deg + (west_deg > east_deg ? 360 : 0));
   return L.latLngBounds([south_deg, west], [north_deg, east]);
 }
@@ -39,11 +41,15 @@ export class Boxes {
     this.draw();
   }
 
-  // [{of, document, bounds}] of the maps whose boxes meet the view.
-  inView() {
+  // [{of, document, bounds}] of the maps whose boxes meet the view, or are not known.
+  mayBeInView() {
     const view = this.map.getBounds(), {lng} = this.map.getCenter();
     return [...this.known.values()].map((each) => ({...each, bounds: boundsOf(each.document, lng)}))
-      .filter(({bounds}) => bounds && view.intersects(bounds));
+      .filter(({bounds}) => !bounds || view.intersects(bounds));
+  }
+
+  inView() {
+    return this.mayBeInView().filter(({bounds}) => bounds);
   }
 
   sizePx(bounds) {

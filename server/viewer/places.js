@@ -21,7 +21,7 @@ const HALF_MARK_M = 2.5;
 const radiusAt = (zoom) => zoom < 19 ? 1.6 : zoom < 20 ? 2.4 : 3.2;
 
 export class Places {
-  // `mapsInView()` gives [{map, build}].
+  // `mapsInView()` gives [{map, build}], those with walls.
   constructor(map, network, mapsInView, failed) {
     Object.assign(this, {map, network, mapsInView, failed, wanted: new Set(['tiles', 'landmarks', 'walls']), turn: 0});
     this.groups = {};
@@ -123,7 +123,7 @@ export class Places {
   async wallCells(turn) {
     if (!this.shows('walls')) return [];
     const bounds = this.map.getBounds(), {lng} = this.map.getCenter(), cells = [];
-    for (const of of await this.mapsInView()) {
+    for (const of of this.mapsInView()) {
       for (const cell of await documents.wallCells(of)) {
         const offset_deg = nearLongitude(cell.west_deg, lng) - cell.west_deg;
         const box = L.latLngBounds([cell.south_deg, cell.west_deg + offset_deg], [cell.north_deg, cell.east_deg + offset_deg]);
