@@ -5,7 +5,7 @@ import {isAborted, onRequests} from './api.js';
 import {Boxes, boundsOf} from './boxes.js';
 import {classOf, colouringOf} from './colourings.js';
 import * as documents from './documents.js';
-import {count, h, number, position} from './dom.js';
+import {h, position} from './dom.js';
 import {createMap} from './ground.js';
 import * as L from './leaflet.js';
 import {legend} from './legend.js';
@@ -13,6 +13,7 @@ import {positionIn, wrappedLongitude} from './lines.js';
 import {catalogPanel, mapPanel, nearPanel} from './mappanel.js';
 import {metricsPanel} from './metricspanel.js';
 import {Network} from './network.js';
+import {forgetNews, tellNews, tellView} from './notices.js';
 import {Places} from './places.js';
 import {segmentPanel, stretchText} from './segmentpanel.js';
 
@@ -34,29 +35,14 @@ const state = {maps: [], map: null, segment: null, found: null, colouring: colou
 
 const map = createMap('map', {url: setting('tiles-url'), attribution: setting('tiles-attribution')});
 const boxes = new Boxes(map);
-const network = new Network(map, state.colouring, {changed: networkChanged, told: tell, failed});
+const network = new Network(map, state.colouring, {changed: networkChanged, told: ({isTooWide, ...more}) => tellView({isTooWide: isTooWide && state.maps.length > 0, ...more}), failed});
 const places = new Places(map, network, () => boxes.mayBeInView().filter(({document: {layers}}) => layers.includes('walls')).map(({of}) => of), failed);
 const marker = L.circleMarker([0, 0], {radius: 7, weight: 3, fillOpacity: 0.2, interactive: false});
 
 function failed(failure) {
   if (isAborted(failure)) return;
   if (failure.status === 410) readCatalog();
-  else if (failure.status !== 0) notice(failure.message);
-}
-
-// What happened stays until something else is chosen; before that and after it there is what the view needs.
-const notices = {news: '', view: ''};
-function notice(text, kind = 'news') {
-  notices[kind] = text;
-  const shown = notices.news || notices.view;
-  byId('notice').hidden = !shown;
-  byId('notice').textContent = shown;
-}
-
-function tell({tooWide, total, shown}) {
-  const isPart = shown < total;
-  notice(tooWide && state.maps.length ? 'Zoom in to see the roads.'
-    : isPart ? `Here are ${count(total, 'segment')}; the ${number(shown)} nearest to the middle are drawn. Zoom in for the rest.` : '', 'view');
+  else if (failure.status !== 0) tellNews(failure.message);
 }
 
 function networkChanged() {
@@ -121,7 +107,7 @@ const onSegment = {
   mark: (range) => network.mark(range && [Math.max(range[0], 0), Math.min(range[1], state.segment.document.length_m)]),
   choose: ({map: name, segment}) => {
     const of = mapNamed(name || state.segment.map);
-    return of ? chooseSegment({...of, segment}) : notice(`The server has no map ${name}.`);
+    return of ? chooseSegment({...of, segment}) : tellNews(`The server has no map ${name}.`);
   },
 };
 
@@ -154,7 +140,7 @@ async function boundsOfMap(of) {
 }
 
 async function chooseMap(of, {isFitted = true} = {}) {
-  notice('');
+  forgetNews();
   Object.assign(state, {map: of, found: null});
   clearSegment();
   if (!isFitted) return;
@@ -170,7 +156,7 @@ async function chooseMap(of, {isFitted = true} = {}) {
 const loaded = (of) => network.load(of).catch((failure) => isAborted(failure) ? network.load(of) : Promise.reject(failure));
 
 async function chooseSegment(of, {isFitted = true} = {}) {
-  notice('');
+  forgetNews();
   try {
     const segment = await loaded({map: of.map, build: of.build, segment: of.segment});
     Object.assign(state, {segment, map: mapNamed(of.map)});
@@ -187,7 +173,7 @@ async function chooseSegment(of, {isFitted = true} = {}) {
 async function search(text) {
   const at = positionIn(text);
   if (!at) return;
-  map.setView(at, Math.max(map.getZoom(), 17));
+  map.setView(at, Math.max(map.getZoom(), 18));
   marker.setLatLng(at).setStyle({color: getComputedStyle(document.documentElement).getPropertyValue('--m1')}).addTo(map);
   try {
     const near = await documents.segmentsNear(at, SEARCH_RADIUS_M);
@@ -218,7 +204,7 @@ async function readCatalog() {
   state.map = before && (mapNamed(before.map) ?? null);
   if (segment && builds.get(segment.map) !== segment.build) {
     clearSegment();
-    notice(builds.has(segment.map) ? `The map ${segment.map} was built anew.` : `The map ${segment.map} is no longer served.`);
+    tellNews(builds.has(segment.map) ? `The map ${segment.map} was built anew.` : `The map ${segment.map} is no longer served.`);
   } else {
     showPanel();
   }

@@ -1,13 +1,13 @@
 // The maps whose documents are known, and their boxes on the map when it is seen from afar.
 
 import {h} from './dom.js';
-import {colour} from './ground.js';
+import {colour, onColours} from './ground.js';
 import * as L from './leaflet.js';
 import {nearLongitude} from './lines.js';
 
 const SMALL_PX = 24;  // a box below this is drawn as a circle
 const CIRCLE_PX = 12;
-const MOST_NAMES = 40;
+const NAME_PX = {width: 110, height: 22};  // the least distances of two names
 const NEAR_ZOOM = 15;
 
 const keyOf = ({map, build}) => `${map}/${build}`;
@@ -27,7 +27,7 @@ export class Boxes {
     map.createPane('boxes').style.zIndex = 390;
     this.renderer = L.canvas({pane: 'boxes', padding: 0.3});
     map.on('moveend', () => this.draw());
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
+    onColours(() => this.draw());
   }
 
   add(of, document) {
@@ -60,17 +60,21 @@ export class Boxes {
   draw() {
     this.group.clearLayers();
     if (this.map.getZoom() >= NEAR_ZOOM) return;
-    const inView = this.inView();
-    for (const {of, bounds} of inView) {
+    const named = [];  // places on the screen
+    for (const {of, bounds} of this.inView()) {
       const options = {renderer: this.renderer, color: colour('m0'), weight: 1.5, fillColor: colour('m0'), interactive: false};
       const isSmall = this.sizePx(bounds) < SMALL_PX;
       (isSmall ? L.circleMarker(bounds.getCenter(), {...options, radius: CIRCLE_PX, fillOpacity: 0.12})
         : L.rectangle(bounds, {...options, fillOpacity: 0.06})).addTo(this.group);
-      if (inView.length <= MOST_NAMES) this.drawName(of.map, isSmall ? bounds.getCenter() : bounds.getNorthWest(), isSmall);
+      this.drawName(of.map, isSmall ? bounds.getCenter() : bounds.getNorthWest(), isSmall, named);
     }
   }
 
-  drawName(name, at, isBeside) {
+  // Leaves a name out where another one stands.
+  drawName(name, at, isBeside, named) {
+    const {x, y} = this.map.latLngToContainerPoint(at);
+    if (named.some((other) => Math.abs(other.x - x) < NAME_PX.width && Math.abs(other.y - y) < NAME_PX.height)) return;
+    named.push({x, y});
     const icon = L.divIcon({className: `map-label${isBeside ? ' beside' : ''}`, iconSize: null, html: h('span', {}, name)});
     L.marker(at, {icon, interactive: false, keyboard: false}).addTo(this.group);
   }

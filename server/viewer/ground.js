@@ -6,11 +6,21 @@ const LEAST_SPACING_PX = 120;
 const STEPS_DEG = [30, 10, 5, 2, 1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001, 0.00005, 0.00002];
 const MAX_ZOOM = 23;
 
-export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const dark = matchMedia('(prefers-color-scheme: dark)'), colours = new Map();
+dark.addEventListener('change', () => colours.clear());
+
+// A colour of the style sheet, as the scheme has it.
+export function colour(name) {
+  if (!colours.has(name)) colours.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+  return colours.get(name);
+}
+
+// Calls back when the colours have become others.
+export const onColours = (listener) => dark.addEventListener('change', listener);
 
 // The smallest step whose lines are not too close, in degrees of longitude.
 function stepAt(map) {
-  const {lng} = map.getCenter(), {lat} = map.getCenter();
+  const {lat, lng} = map.getCenter();
   const perDegree = map.latLngToContainerPoint([lat, lng + 1]).x - map.latLngToContainerPoint([lat, lng]).x;
   return STEPS_DEG.filter((step) => step * perDegree >= LEAST_SPACING_PX).at(-1) ?? STEPS_DEG[0];
 }
@@ -46,7 +56,7 @@ export function createMap(id, tiles) {
     L.polyline(gridLines(map.getBounds().pad(0.2), stepAt(map)), {renderer, color: colour('grid'), weight: 1, interactive: false}).addTo(grid);
   };
   map.on('moveend', draw);
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
+  onColours(draw);
   draw();
   return map;
 }

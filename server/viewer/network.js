@@ -3,7 +3,7 @@
 import {isAborted} from './api.js';
 import {colourName, runsOf} from './colourings.js';
 import * as documents from './documents.js';
-import {colour} from './ground.js';
+import {colour, onColours} from './ground.js';
 import * as L from './leaflet.js';
 import {distance, lineOf, nearestOn, nearLongitude, partOf, pointAt, wrappedLongitude} from './lines.js';
 import {stretchesOf} from './stretches.js';
@@ -21,18 +21,18 @@ const widthAt = (zoom) => zoom < 13 ? 2.5 : zoom < 15.5 ? 4 : zoom < 18 ? 6 : 8;
 const onPlane = (line) => line.map(({lat, lng}) => L.CRS.EPSG3857.latLngToPoint(L.latLng(lat, lng), 0));
 
 export class Network {
-  // `on` has functions: changed() after the drawn segments changed, told({total, shown, tooWide}) after each search,
+  // `on` has functions: changed() after the drawn segments changed, told({total, shown, isTooWide}) after each search,
   // failed(failure).
   constructor(map, colouring, on) {
-    Object.assign(this, {map, colouring, on, segments: new Map(), chosen: null, chosenLayers: [], marked: null, search: null, timer: null});
+    Object.assign(this, {map, colouring, on, segments: new Map(), chosen: null, chosenLayers: [], marked: null, search: null, timer: null, width_px: widthAt(map.getZoom())});
     for (const [pane, zIndex] of [['selected', 410], ['casing', 420], ['lines', 430], ['marks', 440]]) {
       map.createPane(pane).style.zIndex = zIndex;
       this[pane] = {group: L.layerGroup().addTo(map), renderer: L.canvas({pane, padding: 0.3})};
     }
     this.layers = new Map();
     map.on('moveend', () => this.later());
-    map.on('zoomend', () => this.redraw());
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.redraw());
+    map.on('zoomend', () => { if (widthAt(map.getZoom()) !== this.width_px) this.redraw(); });
+    onColours(() => this.redraw());
   }
 
   later() {
@@ -46,12 +46,12 @@ export class Network {
     const {signal} = this.search = new AbortController();
     const centre = this.map.getCenter(), radius_m = distance(centre, this.map.getBounds().getNorthEast());
     this.moveToView(centre);
-    if (radius_m > FARTHEST_M) return this.on.told({tooWide: true});
+    if (radius_m > FARTHEST_M) return this.on.told({isTooWide: true});
     try {
       const at = {lat: centre.lat, lng: wrappedLongitude(centre.lng)};
       const near = await documents.segmentsNear(at, Math.max(radius_m, 1).toFixed(1), signal);
       const wanted = near.slice(0, MOST_SEGMENTS);
-      this.on.told({total: near.length, shown: wanted.length, near: wanted});
+      this.on.told({total: near.length, shown: wanted.length});
       await Promise.all(wanted.map((of) => this.load(of, signal)));
       this.forget(new Set(wanted.map(keyOf)));
       this.on.changed();
@@ -128,7 +128,7 @@ export class Network {
 
   draw(segment) {
     for (const layer of this.layers.get(segment.key) ?? []) layer.remove();
-    const weight = widthAt(this.map.getZoom()), layers = [];
+    const weight = this.width_px, layers = [];
     const add = (pane, latLngs, options) =>
       layers.push(L.polyline(latLngs, {renderer: this[pane].renderer, interactive: false, lineCap: 'butt', ...options}).addTo(this[pane].group));
     add('casing', this.latLngs(segment, 0, segment.document.length_m), {color: colour('page'), weight: weight + 2.5, lineCap: 'round'});
@@ -139,6 +139,7 @@ export class Network {
   }
 
   redraw() {
+    this.width_px = widthAt(this.map.getZoom());
     for (const segment of this.segments.values()) this.draw(segment);
     this.drawChosen();
   }
@@ -160,7 +161,7 @@ export class Network {
     this.chosenLayers = [];
     const segment = this.chosen;
     if (!segment) return;
-    const ink = colour('ink'), page = colour('page'), weight = widthAt(this.map.getZoom()), {length_m} = segment.document;
+    const ink = colour('ink'), page = colour('page'), weight = this.width_px, {length_m} = segment.document;
     const line = (pane, latLngs, options) => this.chosenLayers.push(
       L.polyline(latLngs, {renderer: this[pane].renderer, interactive: false, color: ink, ...options}).addTo(this[pane].group));
     line('selected', this.latLngs(segment, 0, length_m), {weight: weight + 8});

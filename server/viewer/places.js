@@ -2,8 +2,8 @@
 
 import {isAborted} from './api.js';
 import * as documents from './documents.js';
-import {colour} from './ground.js';
 import {h} from './dom.js';
+import {colour, onColours} from './ground.js';
 import * as L from './leaflet.js';
 import {besides, nearLongitude, pointAt} from './lines.js';
 import {LANDMARKS} from './stretches.js';
@@ -30,7 +30,7 @@ export class Places {
       this.groups[kind] = {group: L.layerGroup().addTo(map), renderer: L.canvas({pane: kind, padding: 0.2}), shown: ''};
     }
     map.on('moveend', () => this.refresh());
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.redraw());
+    onColours(() => this.redraw());
   }
 
   redraw() {

@@ -207,6 +207,12 @@ class Viewer(CommandTest):
         self.expect_drawn(page, segment, "v0")
         page.click(*page.in_window(*self.vertex(segment, 27)))
         self.expect_segment(page, segment)
+        zoom = page.view()[0]
+        tile = segment["tiles"]["tracklets"][2]
+        page.choose("2")
+        page.until(lambda: page.view()[0] > zoom, "the map at the tile")
+        middle = self.vertex(segment, (tile["from_m"] + tile["to_m"]) / 2)
+        self.assertAlmostEqual(page.view()[1], middle[0], delta=2e-5)
         page.press(".back")
         self.assertEqual(page.text("#content h2"), "street")
         self.expect_quiet(page)
