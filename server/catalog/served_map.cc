@@ -117,4 +117,6 @@ Result<Bytes> ServedMap::checked(Result<Bytes> tile, std::uint64_t bytes,
   return tile;
 }
 
+Result<std::string> ServedMap::mapping() const { return readers_->lend()->mapping_document(); }
+
 }  // namespace milepost::server

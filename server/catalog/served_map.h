@@ -54,6 +54,9 @@ class ServedMap {
                      const TileEntry& entry) const;
   // The same for a cell.
   Result<Bytes> cell(const std::string& layer, const CellEntry& entry) const;
+  // The record of the mapping, read at each call; empty if the map has none.
+  // Errors: corrupt, io.
+  Result<std::string> mapping() const;
 
  private:
   ServedMap() = default;

@@ -42,7 +42,11 @@ Response current_text(const Document& document, const char* content_type) {
 
 Response current_json(const Document& document) { return current_text(document, kJson); }
 
-Response immutable_json(const Document& document) { return text(document, kJson, kImmutable); }
+Response immutable_text(const Document& document, const char* content_type) {
+  return text(document, content_type, kImmutable);
+}
+
+Response immutable_json(const Document& document) { return immutable_text(document, kJson); }
 
 Response immutable_tiles(TileList tiles, const std::string& digest) {
   return frames(std::move(tiles), digest);

@@ -15,7 +15,8 @@ Response plain_text(std::string text);
 // Text that may change at any time: a cache must revalidate its copy each time.
 Response current_text(const Document& document, const char* content_type);
 Response current_json(const Document& document);
-// JSON that never changes under its URL.
+// Text and JSON that never change under their URL.
+Response immutable_text(const Document& document, const char* content_type);
 Response immutable_json(const Document& document);
 // Stored tiles or cells, which never change under their URL. `digest` covers all of them.
 Response immutable_tiles(TileList tiles, const std::string& digest);

@@ -1,4 +1,4 @@
-// The arguments of a route: the catalog, the values in the path's braces, the query.
+// The arguments of a route: the catalog, the values in the path's braces, the query, the viewer.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 
 #include "server/catalog/catalog.h"
 #include "server/message/target.h"
+#include "server/viewer/viewer.h"
 
 namespace milepost::server {
 
@@ -13,6 +14,7 @@ struct Call {
   const Catalog& catalog;
   std::vector<std::string> path;  // the values of {braces}, in the pattern's order
   const Query& query;             // only parameters of the route, none repeated
+  const Viewer& viewer;
 };
 
 }  // namespace milepost::server

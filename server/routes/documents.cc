@@ -37,6 +37,19 @@ Result<Response> answer_summary(const Call& call) {
   return immutable_json((*map)->summary());
 }
 
+Result<Response> answer_mapping(const Call& call) {
+  const Result<std::shared_ptr<const ServedMap>> map =
+      find_build(call.catalog, call.path[0], call.path[1]);
+  if (!map) return map.error();
+  Result<std::string> mapping = (*map)->mapping();
+  if (!mapping) return mapping.error();
+  if (mapping->empty()) {
+    return Error{ErrorCode::not_found, "the record of the mapping of map '" + call.path[0] + "'",
+                 "does not exist", "build the map anew to have one"};
+  }
+  return immutable_json(document_of(std::move(*mapping)));
+}
+
 Result<Response> answer_segment(const Call& call) {
   const Result<std::shared_ptr<const ServedMap>> map =
       find_build(call.catalog, call.path[0], call.path[1]);

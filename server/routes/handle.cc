@@ -22,6 +22,12 @@ const std::vector<Route>& routes() {
       {"/healthz", {}, answer_health},
       {"/readyz", {}, answer_ready},
       {"/openapi.yaml", {}, answer_openapi},
+      {"/", {}, answer_page},
+      {"/viewer/{release}/{file}", {}, answer_viewer_file},
+      {"/viewer/maps/{map}/builds/{build}/segments/{segment}/landmarks/{index}",
+       {},
+       answer_viewer_landmarks},
+      {"/viewer/maps/{map}/builds/{build}/walls/{cell}", {}, answer_viewer_walls},
       {"/v1/maps", {}, answer_maps},
       {"/v1/maps/{map}", {}, answer_map},
       {"/v1/maps/{map}/changes", {"from"}, answer_changes},
@@ -29,6 +35,7 @@ const std::vector<Route>& routes() {
       {"/v1/maps/{map}/builds/{build}/manifest", {}, answer_manifest},
       {"/v1/maps/{map}/builds/{build}/manifest.sig", {}, answer_signature},
       {"/v1/maps/{map}/builds/{build}/map", {}, answer_summary},
+      {"/v1/maps/{map}/builds/{build}/mapping", {}, answer_mapping},
       {"/v1/maps/{map}/builds/{build}/segments/{segment}", {}, answer_segment},
       {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles",
        {"layer", "from_m", "to_m"},
@@ -78,7 +85,7 @@ Response answer(const Route& route, const Request& request, const Call& call) {
 
 }  // namespace
 
-Response handle(const Request& request, const Catalog& catalog) {
+Response handle(const Request& request, const Catalog& catalog, const Viewer& viewer) {
   if (request.target.size() > kMaxTargetBytes) {
     return problem(414, "the URL is longer than " + std::to_string(kMaxTargetBytes) +
                             " bytes; no URL of this server is");
@@ -88,7 +95,7 @@ Response handle(const Request& request, const Catalog& catalog) {
   for (const Route& route : routes()) {
     std::optional<std::vector<std::string>> values = fit(route.pattern, target->path);
     if (!values) continue;
-    return answer(route, request, {catalog, std::move(*values), target->query});
+    return answer(route, request, {catalog, std::move(*values), target->query, viewer});
   }
   return problem(404, "there is nothing at this path; /openapi.yaml lists the paths");
 }

@@ -8,6 +8,7 @@
 #include "server/catalog/catalog.h"
 #include "server/message/request.h"
 #include "server/message/response.h"
+#include "server/viewer/viewer.h"
 
 namespace milepost::server {
 
@@ -16,7 +17,8 @@ inline constexpr std::size_t kMaxTargetBytes = 4096;
 
 // The response to a request (PROTOCOL.md). HEAD gets the response to GET; the sender omits the
 // body. Safe to call from several threads at once. The response keeps alive what it refers to.
-Response handle(const Request& request, const Catalog& catalog);
+Response handle(const Request& request, const Catalog& catalog,
+                const Viewer& viewer = Viewer::plain());
 
 // The paths of all routes, as in openapi.yaml: "/v1/maps/{map}".
 std::vector<std::string_view> path_patterns();

@@ -18,7 +18,7 @@ using namespace milepost::server;
 const Catalog& catalog() {
   static const TemporaryFolder folder;
   static const std::shared_ptr<const Catalog> opened = [] {
-    write_town(folder.path() / "town.map");
+    write_lane(folder.path() / "town.map");
     return open_catalog(folder.path());
   }();
   return *opened;

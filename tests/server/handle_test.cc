@@ -230,8 +230,8 @@ TEST_F(HandleTest, TileHasItsDigestAsTag) {
 TEST_F(HandleTest, AbsentThingsAre404) {
   const std::string other(32, '0');
   for (const std::string& target :
-       {std::string("/"), std::string("/v1"), std::string("/v1/maps/"), std::string("/nothing"),
-        std::string("/metrics"), std::string("/v1/maps/nowhere"),
+       {std::string("/viewer"), std::string("/v1"), std::string("/v1/maps/"),
+        std::string("/nothing"), std::string("/metrics"), std::string("/v1/maps/nowhere"),
         "/v1/maps/nowhere/builds/" + other + "/segments/s1", build_path() + "/segments/s3",
         segment_path() + "/tiles/glance/0", segment_path() + "/tiles?layer=glance&from_m=0&to_m=1",
         segment_path() + "/tiles/tracklets/4", segment_path() + "/tiles/walls/0", build_path(),
@@ -418,13 +418,16 @@ TEST_F(HandleTest, OpenapiAndTheServerKnowTheSamePaths) {
 
 TEST_F(HandleTest, EveryPathOfOpenapiIsAnswered) {
   const std::vector<std::pair<std::string, std::string>> values = {
-      {"{map}", "town"},
-      {"{build}", town_.build},
+      {"{map}", "lane"},
+      {"{build}", write_lane(folder_.path() / "lane.map").build},
+      {"{release}", Viewer::plain().release()},
+      {"{file}", "app.js"},
       {"{segment}", "s1"},
       {"tiles/{layer}", "tiles/tracklets"},
       {"areas/{layer}", "areas/walls"},
       {"{index}", "0"},
       {"{cell}", std::to_string(kTownCells[0])}};
+  catalog_ = open_catalog(folder_.path());
   ASSERT_FALSE(openapi_paths().empty());
   std::ofstream(folder_.path() / "town.map.sig")
       << signature_text({"town", town_.build, 1796000000}, SecretKey(SecretKey::Seed{1}));

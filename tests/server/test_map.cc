@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "schema/geo/route_line.h"
+#include "schema/tile/codec.h"
 
 namespace milepost::server {
 namespace {
@@ -101,6 +102,32 @@ std::string write_changed_town(const std::filesystem::path& file, const TownMap&
   for (unsigned i = 0; i < 3; ++i)
     must(writer->add_cell("walls", kTownCells[i], 20 + i, town.cells[i]));
   return finished(*writer);
+}
+
+LaneMap write_lane(const std::filesystem::path& file, std::size_t landmarks) {
+  Result<MapWriter> writer = MapWriter::create(file);
+  if (!writer) throw std::runtime_error(writer.error().line());
+  LaneMap lane{"", {"s1", 0, 0, {}}, tiles_of({{{49.001, 8.001}, {49.001, 8.002}}}).front(), {}};
+  for (std::size_t i = 0; i < landmarks; ++i) {
+    Landmark landmark;
+    landmark.position = {0, static_cast<double>(i % 300), 2};
+    landmark.depth_sigma_m = 0.5F;
+    landmark.size_m = 1;
+    landmark.observations = 5;
+    landmark.passes = 2;
+    lane.landmarks.landmarks.push_back(landmark);
+  }
+  PoseFit fit{10, 100, 95, 0.5, 0.02, 0.01, 0.1};
+  lane.mapping = {{{"monday", fit}}, {{"s1", {{0, 10, "monday", fit}}}}, {}, {}};
+  must(writer->add_layer("tracklets", R"({"items": "landmarks", "tile_length_m": 50})"));
+  must(writer->add_layer("walls", R"({"items": "walls"})"));
+  must(writer->add_segment(segment("s1", 0.0006, 0, {})));
+  must(
+      writer->add_tile("s1", "tracklets", 0, {0, 60}, landmarks, encode_landmarks(lane.landmarks)));
+  must(writer->add_cell("walls", lane.walls.cell, 1, encode_walls(lane.walls)));
+  must(writer->set_mapping_document(mapping_document(lane.mapping)));
+  lane.build = finished(*writer);
+  return lane;
 }
 
 std::string write_walls(const std::filesystem::path& file,

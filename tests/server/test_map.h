@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "schema/document/mapping_record.h"
 #include "schema/store/map_store.h"
+#include "schema/tile/landmark.h"
+#include "schema/tile/wall.h"
 #include "server/catalog/catalog.h"
 
 namespace milepost::server {
@@ -44,6 +47,18 @@ TownMap write_town(const std::filesystem::path& file, std::size_t frame_bytes = 
 // Writes the town with 77 other bytes for tile 1 of s1, without its tile 3, and without s2. Returns
 // the build.
 std::string write_changed_town(const std::filesystem::path& file, const TownMap& town);
+
+// Segment "s1" of the town with a tile 0 of layer "tracklets" and the first of kTownCells, which
+// can be decoded, and with a record of its mapping.
+struct LaneMap {
+  std::string build;
+  LandmarkTile landmarks;
+  WallTile walls;
+  MappingRecord mapping;
+};
+
+// Writes the map with so many landmarks: each a metre north of the one before, 2 m above the line.
+LaneMap write_lane(const std::filesystem::path& file, std::size_t landmarks = 3);
 
 // Writes a map with nothing but a layer "walls" of these cells, each of them four bytes.
 // Returns its build.

@@ -27,6 +27,8 @@ MAY_INCLUDE = {
     "schema/page/": [BASE, "schema/geo/geodesy.h", "schema/page/"],
     "schema/drive/": [BASE, "schema/geo/", "schema/drive/"],
     "mapper/": ["mapper/", "schema/"],
+    "server/viewer/": ["server/", BASE, "schema/geo/", "schema/tile/"],
+    "server/routes/viewer.cc": ["server/", "schema/tile/layer_parameters.h"],
     "server/": ["server/", BASE, COMMAND, "schema/document/", "schema/store/", "schema/geo/"],
     "client/estimation/": [],
     "client/cache/": ["client/cache/", BASE, "schema/store/"],
