@@ -65,8 +65,11 @@ Status serve(const server::Options& options) {
       options.maps, options.threads, [](const std::string& line) { spdlog::warn("{}", line); });
   if (!catalog) return catalog.error();
   const sigset_t signals = blocked({SIGHUP, SIGINT, SIGTERM});
-  const auto running = server::Server::start(std::make_shared<server::CurrentCatalog>(*catalog),
-                                             {options.address, options.port, options.threads, {}});
+  server::ServerSettings settings;
+  settings.listen = {{options.address, options.port}};
+  settings.threads = options.threads;
+  const auto running =
+      server::Server::start(std::make_shared<server::CurrentCatalog>(*catalog), settings);
   if (!running) return running.error();
   std::cout << "listening on " << (*running)->address() << ' ' << counts(**catalog) << std::endl;
   wait_for_stop(signals);

@@ -599,7 +599,7 @@ TEST_F(ServerTest, StopBreaksOffAnAnswerThatDoesNotEnd) {
 TEST_F(ServerTest, AddressInUseIsAnError) {
   start();
   ServerSettings settings;
-  settings.port = port_;
+  settings.listen = {{"127.0.0.1", port_}};
   const auto second = Server::start(served(open_catalog(folder_.path())), settings);
   ASSERT_FALSE(second.ok());
   EXPECT_THAT(second.error().line(), HasSubstr(server_->address() + ": cannot be listened on"));
@@ -607,11 +607,10 @@ TEST_F(ServerTest, AddressInUseIsAnError) {
 
 TEST_F(ServerTest, AddressThatIsNoneIsAnError) {
   ServerSettings settings;
-  settings.address = "localhost";
+  settings.listen = {{"no.such.host.invalid"}};
   const auto server = Server::start(served(open_catalog(folder_.path())), settings);
   ASSERT_FALSE(server.ok());
-  EXPECT_THAT(server.error().line(),
-              HasSubstr("address localhost: is not an IPv4 or IPv6 address"));
+  EXPECT_THAT(server.error().line(), HasSubstr("address no.such.host.invalid: cannot be resolved"));
 }
 
 }  // namespace
