@@ -34,36 +34,48 @@ Response unconditional(const Request& request, const Catalog& catalog) {
   }
 }
 
+// Null if it is not in memory.
+PreparedAnswer hot_answer(const Request& request, Shared& shared) {
+  const std::shared_ptr<const Catalog> catalog = shared.catalog->now();
+  PreparedAnswer hot = shared.answers.find(request.target, catalog);
+  if (hot) return hot;
+  if (std::ranges::find(kWithoutDisk, request.target) == kWithoutDisk.end()) return nullptr;
+  hot = prepared(unconditional(request, *catalog));
+  shared.answers.add(request.target, catalog, hot);
+  return hot;
+}
+
+bool has_frames(const Request& request, const Response& response) {
+  return request.method != "HEAD" && frame_count(response) > 0;
+}
+
 }  // namespace
 
-PreparedAnswer answer_from_memory(const Request& request, Shared& shared) {
-  if (!asks_for_content(request)) return nullptr;
-  const std::shared_ptr<const Catalog> catalog = shared.catalog->now();
-  PreparedAnswer answer = shared.answers.find(request.target, catalog);
-  if (!answer) {
-    const auto found = std::ranges::find(kWithoutDisk, request.target);
-    if (found == kWithoutDisk.end()) return nullptr;
-    answer = prepared(unconditional(request, *catalog));
-    shared.answers.add(request.target, catalog, answer);
+Answer answer_from_memory(const Request& request, Shared& shared) {
+  Answer answer;
+  if (!asks_for_content(request)) return answer;
+  const PreparedAnswer hot = hot_answer(request, shared);
+  if (!hot) return answer;
+  const PreparedAnswer& chosen = unless_known(hot, request.if_none_match);
+  if (has_frames(request, chosen->response)) {
+    Frame first = shared.frames.find(frame_digest(chosen->response, 0));
+    if (!first) return answer;
+    answer.frames.push_back(std::move(first));
   }
-  return unless_known(answer, request.if_none_match);
+  answer.prepared = chosen;
+  return answer;
 }
 
 Answer answer_from_disk(const Request& request, Shared& shared) {
   const std::shared_ptr<const Catalog> catalog = shared.catalog->now();
-  Answer answer{prepared(unconditional(request, *catalog)), {}};
-  if (asks_for_content(request)) shared.answers.add(request.target, catalog, answer.prepared);
-  answer.prepared = unless_known(answer.prepared, request.if_none_match);
-  if (request.method == "HEAD" || frame_count(answer.prepared->response) == 0) return answer;
-  Result<std::vector<Frame>> frames = read_frames(answer.prepared->response, 0, shared.frames);
-  if (!frames) return {unreadable(frames.error()), {}};
-  answer.frames = std::move(frames).value();
-  return answer;
-}
-
-PreparedAnswer unreadable(const Error& error) {
-  spdlog::error("{}", error.line());
-  return prepared(problem(500, "the map cannot be read; the server's log says why"));
+  const PreparedAnswer found = prepared(unconditional(request, *catalog));
+  if (asks_for_content(request)) shared.answers.add(request.target, catalog, found);
+  const PreparedAnswer& chosen = unless_known(found, request.if_none_match);
+  if (!has_frames(request, chosen->response)) return {chosen, {}};
+  Result<std::vector<Frame>> frames = read_frames(chosen->response, 0, shared.frames);
+  if (frames) return {chosen, std::move(frames).value()};
+  spdlog::error("{}", frames.error().line());
+  return {prepared(problem(500, "the map cannot be read; the server's log says why")), {}};
 }
 
 }  // namespace milepost::server

@@ -15,15 +15,12 @@ struct Answer {
   std::vector<Frame> frames;  // the first ones of the body
 };
 
-// The answer if it takes no disk; else null. Never blocks. HotAnswers know nothing of fields of a
-// request: a field that changes an answer is applied here and in answer_from_disk, as
-// If-None-Match is.
-PreparedAnswer answer_from_memory(const Request& request, Shared& shared);
+// The answer, if it and the first frame of its body are in memory; else without `prepared`. Never
+// blocks. HotAnswers know nothing of fields of a request: a field that changes an answer is applied
+// here and in answer_from_disk, as If-None-Match is.
+Answer answer_from_memory(const Request& request, Shared& shared);
 
 // Any answer, which enters the memory. May take as long as the disk takes.
 Answer answer_from_disk(const Request& request, Shared& shared);
-
-// The answer where the map cannot be read, which is logged.
-PreparedAnswer unreadable(const Error& error);
 
 }  // namespace milepost::server

@@ -153,9 +153,9 @@ void Connection::await_request() {
 void Connection::answer() {
   begun_ = Clock::now();
   responding_ = true;
-  if (incoming_.refusal) return respond(prepared(std::move(*incoming_.refusal)), {});
-  PreparedAnswer hot = answer_from_memory(incoming_.request, shared_);
-  if (hot) return respond(std::move(hot), {});
+  if (incoming_.refusal) return respond({prepared(std::move(*incoming_.refusal)), {}});
+  Answer hot = answer_from_memory(incoming_.request, shared_);
+  if (hot.prepared) return respond(std::move(hot));
   answer_later();
 }
 
@@ -167,11 +167,11 @@ void Connection::answer_later() {
         // The connection must end on its own thread: nothing of it stays here.
         net::post(worker.context(), [self = std::move(self), answer = std::move(answer)]() mutable {
           if (self->closed_) return;
-          self->respond(std::move(answer.prepared), std::move(answer.frames));
+          self->respond(std::move(answer));
           self->serve();
         });
       });
-  if (!accepted) return respond(disk_is_busy(), {});
+  if (!accepted) return respond({disk_is_busy(), {}});
   worker_.wait(*this, Phase::disk);
 }
 
@@ -180,18 +180,18 @@ void Connection::refuse(PreparedAnswer answer) {
   begun_ = Clock::now();
   responding_ = true;
   incoming_ = {{"-", "-", {}}, 11, false, {}};
-  respond(std::move(answer), {});
+  respond({std::move(answer), {}});
 }
 
-void Connection::respond(PreparedAnswer answer, std::vector<Frame> frames) {
+void Connection::respond(Answer answer) {
   // At a stop, the last response to requests that have arrived says that it is the last.
   const bool last = worker_.finishing() && reader_.empty();
   keep_alive_ = incoming_.keep_alive && !last;
   broken_ = false;
   sent_bytes_ = 0;
-  outgoing_.begin(std::move(answer), worker_.head_end(incoming_.http_version, keep_alive_),
+  outgoing_.begin(std::move(answer.prepared), worker_.head_end(incoming_.http_version, keep_alive_),
                   incoming_.request.method != "HEAD");
-  for (Frame& frame : frames) outgoing_.add(std::move(frame));
+  for (Frame& frame : answer.frames) outgoing_.add(std::move(frame));
   send();
 }
 
@@ -204,7 +204,7 @@ void Connection::send() {
     read_ahead();
     const std::size_t ready = outgoing_.ready_bytes();
     if (ready == 0 && broken_) return close();
-    if (ready == 0 || outgoing_.lacks_body()) return worker_.wait(*this, Phase::disk);
+    if (ready == 0) return worker_.wait(*this, Phase::disk);
     if (!send_some()) return;
     const std::size_t sent = ready - outgoing_.ready_bytes();
     if (sent >= limit) {
@@ -278,9 +278,6 @@ void Connection::read_ahead() {
 void Connection::add_frames(Result<std::vector<Frame>> frames) {
   if (frames) {
     for (const Frame& frame : *frames) outgoing_.add(frame);
-  } else if (outgoing_.lacks_body()) {  // nothing is sent yet, so the status can still be 500
-    outgoing_.end();
-    respond(unreadable(frames.error()), {});
   } else {
     spdlog::error("{}", frames.error().line());
     broken_ = true;

@@ -45,7 +45,7 @@ class Connection : public Waiting, public std::enable_shared_from_this<Connectio
   void answer();
   void answer_later();
   void refuse(PreparedAnswer answer);
-  void respond(PreparedAnswer answer, std::vector<Frame> frames);
+  void respond(Answer answer);
 
   void send();
   bool send_some();

@@ -16,6 +16,7 @@ namespace milepost::server {
 namespace {
 
 constexpr std::chrono::milliseconds kPauseAfterError{100};
+constexpr std::chrono::milliseconds kPauseForRoom{5};
 constexpr std::chrono::seconds kBetweenWarnings{1};
 constexpr int kAcceptedAtOnce = 64;  // then connections have their turn
 
@@ -64,17 +65,19 @@ void Listener::await(Door& door) {
 }
 
 void Listener::accept(Door& door) {
-  errno = 0;
-  for (int i = 0; i < kAcceptedAtOnce && accept_one(door); ++i) {
+  for (int i = 0; i < kAcceptedAtOnce; ++i) {
+    if (shared_.admission.overfull()) return pause(door, kPauseForRoom);
+    if (accept_one(door)) continue;
+    if (errno == EAGAIN) break;
+    spdlog::warn("{}: a connection cannot be accepted ({}); accepting continues",
+                 door.socket.address(), std::generic_category().message(errno));
+    return pause(door, kPauseAfterError);
   }
-  if (errno != 0 && errno != EAGAIN) return pause(door, errno);
   await(door);
 }
 
-void Listener::pause(Door& door, int error) {
-  spdlog::warn("{}: a connection cannot be accepted ({}); accepting continues",
-               door.socket.address(), std::generic_category().message(error));
-  door.pause.expires_after(kPauseAfterError);
+void Listener::pause(Door& door, std::chrono::milliseconds duration) {
+  door.pause.expires_after(duration);
   door.pause.async_wait([this, &door](const error_code& ended) {
     if (!ended) accept(door);
   });
@@ -87,7 +90,6 @@ bool Listener::accept_one(Door& door) {
                                    SOCK_NONBLOCK | SOCK_CLOEXEC);
   if (descriptor < 0 && !is_of_one_connection(errno)) return false;
   if (descriptor >= 0) welcome(descriptor, address);
-  errno = 0;
   return true;
 }
 
@@ -106,11 +108,11 @@ void Listener::welcome(int descriptor, const SocketAddress& address) {
   if (verdict != Admission::Verdict::drop) worker_for(verdict).adopt(std::move(accepted));
 }
 
-// One after the other; the one with most idle connections, if one of them has to go.
+// One after the other; if a connection has to go, the one where that has been idle for longest.
 Worker& Listener::worker_for(Admission::Verdict verdict) {
   if (verdict == Admission::Verdict::replace) {
-    return **std::ranges::max_element(
-        workers_, {}, [](const std::unique_ptr<Worker>& worker) { return worker->idle(); });
+    return **std::ranges::min_element(
+        workers_, {}, [](const auto& worker) { return worker->first_idle_deadline(); });
   }
   next_worker_ = (next_worker_ + 1) % workers_.size();
   return *workers_[next_worker_];

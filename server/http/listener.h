@@ -35,7 +35,7 @@ class Listener {
 
   void await(Door& door);
   void accept(Door& door);
-  void pause(Door& door, int error);
+  void pause(Door& door, std::chrono::milliseconds duration);
   bool accept_one(Door& door);
   void welcome(int descriptor, const SocketAddress& address);
   Worker& worker_for(Admission::Verdict verdict);

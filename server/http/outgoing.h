@@ -26,8 +26,6 @@ class Outgoing {
 
   // The next frame of the body has not been added, and there is room for it.
   bool wants_frame() const { return next_frame_ < frames_ && ready_bytes_ < kReadAheadBytes; }
-  // Not even the first frame has been added: it may turn out that it cannot be read.
-  bool lacks_body() const { return next_frame_ == 0 && frames_ > 0; }
   // Index of the next frame of the body.
   std::size_t next_frame() const { return next_frame_; }
   void add(Frame frame);

@@ -60,21 +60,21 @@ void Worker::join() {
 }
 
 void Worker::wait(Waiting& waiting, Phase phase) {
-  if (phase == Phase::idle && !(waiting.is_linked() && waiting.phase == Phase::idle)) {
-    idle_.fetch_add(1, std::memory_order_relaxed);
-  } else if (phase != Phase::idle && waiting.is_linked() && waiting.phase == Phase::idle) {
-    idle_.fetch_sub(1, std::memory_order_relaxed);
-  }
   deadlines_.enter(waiting, phase, Clock::now());
   arm(waiting.deadline);
+  publish_first_idle();
 }
 
 void Worker::forget(Waiting& waiting) {
-  if (waiting.is_linked() && waiting.phase == Phase::idle) {
-    idle_.fetch_sub(1, std::memory_order_relaxed);
-  }
   waiting.unlink();
+  publish_first_idle();
   end_if_done();
+}
+
+void Worker::publish_first_idle() {
+  const Waiting* first = deadlines_.first(Phase::idle);
+  const auto deadline = first == nullptr ? Clock::time_point::max() : first->deadline;
+  first_idle_.store(deadline.time_since_epoch().count(), std::memory_order_relaxed);
 }
 
 std::string_view Worker::head_end(unsigned http_version, bool keep_alive) {
@@ -82,11 +82,12 @@ std::string_view Worker::head_end(unsigned http_version, bool keep_alive) {
 }
 
 void Worker::take(Accepted accepted) {
-  const Admission::Verdict verdict = accepted.ticket.verdict();
-  const bool serve = verdict == Admission::Verdict::serve ||
-                     (verdict == Admission::Verdict::replace && close_longest_idle());
+  Admission::Ticket& ticket = accepted.ticket;
+  if (ticket.verdict() == Admission::Verdict::replace && !close_longest_idle()) ticket.reject();
+  const Admission::Verdict verdict = ticket.verdict();
+  if (verdict == Admission::Verdict::drop) return;
   const auto connection = std::make_shared<Connection>(*this, std::move(accepted));
-  serve ? connection->start() : connection->reject();
+  verdict == Admission::Verdict::reject ? connection->reject() : connection->start();
 }
 
 // False if there is none.

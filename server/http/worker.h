@@ -31,7 +31,10 @@ class Worker {
   // From any thread.
   void start();
   void adopt(Accepted accepted);
-  std::size_t idle() const { return idle_.load(std::memory_order_relaxed); }
+  // When the connection that has been idle for longest expires; the maximum if none is idle.
+  Clock::time_point first_idle_deadline() const {
+    return Clock::time_point(Clock::duration(first_idle_.load(std::memory_order_relaxed)));
+  }
   // Lets responses end, and requests that are on their way be answered; then the thread ends.
   void finish();
   // Closes all connections.
@@ -54,6 +57,7 @@ class Worker {
  private:
   void take(Accepted accepted);
   bool close_longest_idle();
+  void publish_first_idle();
   void close_expired();
   void arm(Clock::time_point deadline);
   void end_if_done();
@@ -62,7 +66,7 @@ class Worker {
   Deadlines deadlines_;  // outlives the context, whose handlers keep the connections
   HeadEnds head_ends_;
   std::array<char, 65536> scratch_{};
-  std::atomic<std::size_t> idle_ = 0;
+  std::atomic<Clock::rep> first_idle_ = Clock::duration::max().count();
   bool finishing_ = false;
 
   net::io_context context_{1};

@@ -22,7 +22,16 @@ Admission::Ticket::Ticket(Ticket&& other) noexcept
       counted_(other.counted_) {}
 
 Admission::Ticket::~Ticket() {
-  if (admission_ != nullptr) admission_->leave(*this, key_, counted_);
+  if (admission_ == nullptr) return;
+  const std::lock_guard lock(admission_->mutex_);
+  admission_->remove(*this);
+}
+
+void Admission::Ticket::reject() {
+  const std::lock_guard lock(admission_->mutex_);
+  admission_->remove(*this);
+  verdict_ = admission_->rejection();
+  admission_->add(*this);
 }
 
 Admission::Admission(std::size_t connections, std::size_t per_address)
@@ -32,14 +41,14 @@ Admission::Admission(std::size_t connections, std::size_t per_address)
 
 Admission::Ticket Admission::enter(const Peer& peer) {
   const std::lock_guard lock(mutex_);
-  const Verdict verdict = verdict_for(peer);
-  if (is_served(verdict)) {
-    ++served_;
-    if (peer.counted) ++by_address_[peer.key];
-  } else if (verdict == Verdict::reject) {
-    ++rejected_;
-  }
-  return {*this, verdict, peer};
+  Ticket ticket(*this, verdict_for(peer), peer);
+  add(ticket);
+  return ticket;
+}
+
+bool Admission::overfull() const {
+  const std::lock_guard lock(mutex_);
+  return served_ >= connections_ + rejections_;
 }
 
 std::size_t Admission::count() const {
@@ -47,23 +56,32 @@ std::size_t Admission::count() const {
   return served_ + rejected_;
 }
 
-// REQUIRES: mutex_ is held.
+// The following four: REQUIRES: mutex_ is held.
+
 Admission::Verdict Admission::verdict_for(const Peer& peer) const {
   const auto same = by_address_.find(peer.key);
   const bool over = peer.counted && same != by_address_.end() && same->second >= per_address_;
-  if (over) return rejected_ < rejections_ ? Verdict::reject : Verdict::drop;
-  if (served_ < connections_) return Verdict::serve;
-  // Those that replace another are over the limit until it is closed.
-  return served_ < connections_ + rejections_ ? Verdict::replace : Verdict::drop;
+  if (over) return rejection();
+  return served_ < connections_ ? Verdict::serve : Verdict::replace;
 }
 
-void Admission::leave(const Ticket& ticket, const Peer::Key& key, bool counted) {
-  const std::lock_guard lock(mutex_);
-  if (ticket.verdict() == Verdict::reject) --rejected_;
-  if (!is_served(ticket.verdict())) return;
+Admission::Verdict Admission::rejection() const {
+  return rejected_ < rejections_ ? Verdict::reject : Verdict::drop;
+}
+
+void Admission::add(const Ticket& ticket) {
+  if (ticket.verdict_ == Verdict::reject) ++rejected_;
+  if (!is_served(ticket.verdict_)) return;
+  ++served_;
+  if (ticket.counted_) ++by_address_[ticket.key_];
+}
+
+void Admission::remove(const Ticket& ticket) {
+  if (ticket.verdict_ == Verdict::reject) --rejected_;
+  if (!is_served(ticket.verdict_)) return;
   --served_;
-  if (!counted) return;
-  const auto same = by_address_.find(key);
+  if (!ticket.counted_) return;
+  const auto same = by_address_.find(ticket.key_);
   if (--same->second == 0) by_address_.erase(same);
 }
 

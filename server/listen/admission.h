@@ -29,8 +29,12 @@ class Admission {
     Ticket& operator=(Ticket&&) = delete;
     ~Ticket();
     Verdict verdict() const { return verdict_; }
+    // Makes it the ticket of one that is rejected after all; of one that is dropped if too many are
+    // rejected already.
+    void reject();
 
    private:
+    friend class Admission;
     Admission* admission_;
     Verdict verdict_;
     Peer::Key key_;
@@ -41,12 +45,16 @@ class Admission {
   Admission(std::size_t connections, std::size_t per_address);
 
   Ticket enter(const Peer& peer);
+  // More have been let in than are to be served: none should be accepted until places are free.
+  bool overfull() const;
   // Those that are served, and those that are rejected.
   std::size_t count() const;
 
  private:
   Verdict verdict_for(const Peer& peer) const;
-  void leave(const Ticket& ticket, const Peer::Key& key, bool counted);
+  Verdict rejection() const;
+  void add(const Ticket& ticket);
+  void remove(const Ticket& ticket);
 
   const std::size_t connections_;
   const std::size_t per_address_;
