@@ -45,8 +45,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string head = head_of(response);
   fuzz::check(head.find("\r\n\r\n") == std::string::npos);  // no input can end the head early
   static HotFrames memory(1U << 20U);
-  const auto* text = std::get_if<SharedText>(&response.body);
-  std::uint64_t bytes = text != nullptr && *text != nullptr ? (*text)->size() : 0;
+  const auto* body = std::get_if<SharedText>(&response.body);
+  std::uint64_t bytes = body != nullptr && *body != nullptr ? (*body)->size() : 0;
   for (std::size_t i = 0; i < frame_count(response);) {
     const Result<std::vector<Frame>> frames = read_frames(response, i, memory);
     fuzz::check(frames.ok() && !frames->empty());
