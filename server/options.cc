@@ -1,9 +1,12 @@
 #include "server/options.h"
 
 #include <algorithm>
-#include <charconv>
-#include <string_view>
+#include <chrono>
+#include <cstddef>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +16,8 @@ namespace milepost::server {
 namespace {
 
 constexpr unsigned kMaxThreads = 256;
+constexpr unsigned kMaxSeconds = 86'400;
+constexpr unsigned kMaxMegabytes = 1'048'576;
 
 constexpr const char* kDescription =
     R"(Serves the maps of a directory over HTTP: clients in vehicles request the tiles of a segment
@@ -41,75 +46,157 @@ constexpr const char* kExamples = R"~(Examples:
   milepost-server --maps maps --listen 127.0.0.1:0
       lets the system choose a port and prints it: "listening on 127.0.0.1:40123 (2 maps)", or
       "(2 maps, 1 left out)"
+  milepost-server --maps maps --listen localhost:8080 --listen unix:/run/milepost/http
+      serves on every address of localhost, and on a unix socket
   milepost-server --config server.toml
-      takes the same options as keys:
+      takes the same options as keys; an unknown key is an error:
           maps = "/srv/milepost"
           listen = "0.0.0.0:8080"
           threads = 4
+          log-format = "json"
   milepost-server --maps maps --listen 127.0.0.1:8080 --check-config
       lists the maps that would be served, with their builds, and those that would be left out
   curl http://127.0.0.1:8080/v1/maps
       lists the maps; /openapi.yaml describes every path
 
 It serves until SIGINT (Ctrl-C) or SIGTERM, then finishes responses in progress and exits with 0.
-The log goes to standard error; lines that
-cannot be written, because nobody reads them or the disk is full, are dropped, and the log reports
-their number.
+Of systemd it takes listening sockets (LISTEN_FDS), and tells it when it is ready and when it stops.
+The log goes to standard error; lines that cannot be written, because nobody reads them or the disk
+is full, are dropped, and the log reports their number.
 Exit codes: 0 stopped on request, 1 the address or none of the maps can be used, 2 wrong call.
 A directory without any map is served as an empty catalog.)~";
-
-// Splits "ADDR:PORT" or "[ADDR]:PORT" at the last colon. False for any other form.
-bool split_listen(std::string_view text, std::string& address, std::uint16_t& port) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos || colon == 0) return false;
-  std::string_view host = text.substr(0, colon);
-  const std::string_view digits = text.substr(colon + 1);
-  if (host.starts_with('[') && host.ends_with(']')) {
-    host = host.substr(1, host.size() - 2);
-  } else if (host.find(':') != std::string_view::npos) {
-    return false;
-  }
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-  address = std::string(host);
-  return error == std::errc() && end == digits.data() + digits.size();
-}
 
 unsigned default_threads() {
   return std::clamp(std::thread::hardware_concurrency(), 1U, kMaxThreads);
 }
 
+// What options hold as whole numbers, and settings as durations and bytes.
+struct Numbers {
+  unsigned keep_builds_s = 600;
+  unsigned idle_s = 60;
+  unsigned request_s = 10;
+  unsigned stall_s = 30;
+  unsigned drain_s = 5;
+  unsigned memory_mb = 64;
+  unsigned open_maps_mb = 128;
+};
+
+void add_limits(CLI::App& app, ConnectionLimits& limits, Numbers& numbers) {
+  app.add_option(
+         "--connections", limits.connections,
+         "Connections at once; at the limit those that have been idle for longest are\n"
+         "closed, else a new one is answered with 503 (1 to 65536, default as many as there\n"
+         "are descriptors for)")
+      ->check(CLI::Range(1, 65536))
+      ->option_text("N");
+  app.add_option("--connections-per-address", limits.per_address,
+                 "The same of one client's address (1 to 65536, default half of all)")
+      ->check(CLI::Range(1, 65536))
+      ->option_text("N");
+  add_number(app, "--idle-s", numbers.idle_s, "S", "For a client's next request", 1, kMaxSeconds);
+  add_number(app, "--request-s", numbers.request_s, "S", "For a request to arrive: then 408", 1,
+             kMaxSeconds);
+  add_number(app, "--stall-s", numbers.stall_s, "S",
+             "For a client to take the next 64 kB of a response", 1, kMaxSeconds);
+  add_number(app, "--drain-s", numbers.drain_s, "S", "For responses in progress at a stop", 0,
+             kMaxSeconds);
+}
+
+void add_memory(CLI::App& app, Numbers& numbers) {
+  add_number(app, "--memory-mb", numbers.memory_mb, "MB",
+             "Tiles and answers in memory: those that were asked for last", 1, kMaxMegabytes);
+  add_number(app, "--open-maps-mb", numbers.open_maps_mb, "MB",
+             "Documents and indices of maps in memory, likewise", 1, kMaxMegabytes);
+}
+
+void add_log(CLI::App& app, LogSettings& log) {
+  app.add_option(
+         "--log-level", log.level,
+         "Least level that is logged: debug, info (default; a line a request), warn, error,\n"
+         "off")
+      ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}))
+      ->option_text("L");
+  app.add_option("--log-format", log.format, "text (default), or json: an object a line")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->option_text("F");
+}
+
+void add_viewer(CLI::App& app, ViewerSettings& viewer) {
+  app.add_option("--tiles-url", viewer.tiles_url,
+                 "Map tiles beneath the network on the page at /, in Web Mercator, such as\n"
+                 "https://tiles.example.org/{z}/{x}/{y}.png (default: a plain ground)")
+      ->option_text("URL");
+  app.add_option("--tiles-attribution", viewer.tiles_attribution,
+                 "What the page says of their makers")
+      ->option_text("TEXT");
+}
+
+void take(const Numbers& numbers, Options& options) {
+  using std::chrono::seconds;
+  constexpr std::size_t kBytesPerMb = 1'048'576;
+  ConnectionLimits& limits = options.server.limits;
+  limits.idle = seconds(numbers.idle_s);
+  limits.request = seconds(numbers.request_s);
+  limits.stall = seconds(numbers.stall_s);
+  limits.drain = seconds(numbers.drain_s);
+  options.server.hot_bytes = numbers.memory_mb * kBytesPerMb;
+  options.catalog.open_maps.bytes = numbers.open_maps_mb * kBytesPerMb;
+  options.catalog.open_maps.readers = options.server.disk_threads;
+  options.catalog.keep = seconds(numbers.keep_builds_s);
+}
+
+// Throws: CLI::ParseError.
+void take_addresses(const std::vector<std::string>& texts, ServerSettings& settings) {
+  settings.listen.clear();
+  for (const std::string& text : texts) {
+    Result<ListenAddress> address = parse_listen_address(text);
+    if (!address) {
+      throw CLI::ValidationError("--listen " + text,
+                                 address.error().what + "; " + address.error().hint);
+    }
+    settings.listen.push_back(std::move(*address));
+  }
+  if (texts.empty() && settings.inherited.empty()) throw CLI::RequiredError("--listen");
+}
+
 }  // namespace
 
-std::variant<Options, int> parse_options(int argc, const char* const* argv) {
+std::variant<Options, int> parse_options(int argc, const char* const* argv,
+                                         const std::vector<int>& inherited) {
   Options options;
-  options.threads = default_threads();
-  std::string listen;
+  options.server.threads = default_threads();
+  options.server.inherited = inherited;
+  std::vector<std::string> listen;
+  Numbers numbers;
 
   CLI::App app(kDescription, "milepost-server");
   app.footer(kExamples);
   app.add_option("--maps", options.maps, "Directory of the map files")
       ->required()
-      ->type_name("DIR");
-  app.add_option("--listen", listen, "Address and port to listen on; port 0 lets the system choose")
-      ->required()
-      ->type_name("ADDR:PORT");
-  add_number(app, "--threads", options.threads, "N", "Threads that answer requests", 1,
+      ->option_text("DIR");
+  app.add_option("--listen", listen,
+                 "Where to listen; port 0 lets the system choose. Several may be given; none is\n"
+                 "needed if systemd hands sockets over")
+      ->option_text("HOST:PORT|unix:PATH...");
+  add_number(app, "--threads", options.server.threads, "N", "Threads that send and receive", 1,
              kMaxThreads);
-  unsigned keep_builds_s = 600;
-  add_number(app, "--keep-builds-s", keep_builds_s, "S",
+  add_number(app, "--disk-threads", options.server.disk_threads, "N", "Threads that read maps", 1,
+             kMaxThreads);
+  add_memory(app, numbers);
+  add_limits(app, options.server.limits, numbers);
+  add_number(app, "--keep-builds-s", numbers.keep_builds_s, "S",
              "How long a build that was replaced or taken away is still served", 0, 604800);
-  app.add_flag("--ready-needs-all", options.all_must_be_served,
+  app.add_flag("--ready-needs-all", options.catalog.all_must_be_served,
                "Answer /readyz with 503 while a map is left out or damaged");
+  add_log(app, options.log);
+  add_viewer(app, options.viewer);
   app.add_flag(
       "--check-config", options.only_check,
       "Only check the options and list what would be served; exit code 1 if a map would be\n"
       "left out");
   app.callback([&] {
-    options.keep_builds = std::chrono::seconds(keep_builds_s);
-    if (!split_listen(listen, options.address, options.port)) {
-      throw CLI::ValidationError("--listen " + listen,
-                                 "not ADDR:PORT; write 127.0.0.1:8080 or [::1]:8080");
-    }
+    take(numbers, options);
+    take_addresses(listen, options.server);
   });
   if (const auto code = parse_command_line(app, argc, argv)) return *code;
   return options;

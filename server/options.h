@@ -1,26 +1,30 @@
 // The command line and the configuration file of milepost-server.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <variant>
+
+#include "server/catalog/catalog.h"
+#include "server/log/log.h"
+#include "server/server.h"
+#include "server/viewer/viewer.h"
 
 namespace milepost::server {
 
 struct Options {
   std::filesystem::path maps;
-  std::string address;
-  std::uint16_t port = 0;
-  unsigned threads = 1;
-  std::chrono::seconds keep_builds{600};
-  bool all_must_be_served = false;
+  ServerSettings server;
+  CatalogSettings catalog;  // but for what depends on the limit of descriptors
+  ViewerSettings viewer;
+  LogSettings log;
   bool only_check = false;  // the options and the maps
 };
 
 // The options, or the exit code if the program ends: 0 after --help and --version, 2 after a wrong
-// call. Output has been printed on standard output or standard error.
-std::variant<Options, int> parse_options(int argc, const char* const* argv);
+// call. Output has been printed on standard output or standard error. `inherited`: the listening
+// sockets that a service manager handed over, with which --listen may be left out.
+std::variant<Options, int> parse_options(int argc, const char* const* argv,
+                                         const std::vector<int>& inherited);
 
 }  // namespace milepost::server

@@ -2,62 +2,89 @@
 
 #include <spdlog/spdlog.h>
 
-#include <sstream>
-#include <thread>
-#include <vector>
-
-#include <boost/asio/io_context.hpp>
+#include <algorithm>
+#include <utility>
 
 #include "server/http/listener.h"
-#include "server/http/session.h"
+#include "server/http/shared.h"
+#include "server/http/worker.h"
+#include "server/listen/descriptor_limit.h"
+#include "server/listen/listening_socket.h"
 
 namespace milepost::server {
+namespace {
+
+// Opens the sockets of `settings`.
+Result<std::vector<ListeningSocket>> opened_sockets(const ServerSettings& settings) {
+  std::vector<ListeningSocket> sockets;
+  for (const int descriptor : settings.inherited) {
+    Result<ListeningSocket> socket = ListeningSocket::inherited(descriptor);
+    if (!socket) return socket.error();
+    sockets.push_back(std::move(socket).value());
+  }
+  for (const ListenAddress& address : settings.listen) {
+    Result<std::vector<ListeningSocket>> opened = ListeningSocket::open(address);
+    if (!opened) return opened.error();
+    std::ranges::move(*opened, std::back_inserter(sockets));
+  }
+  if (!sockets.empty()) return sockets;
+  return Error{ErrorCode::invalid_input, "", "there is no address to listen on",
+               "give one, such as 127.0.0.1:8080"};
+}
+
+// The limits with numbers in place of 0.
+ConnectionLimits completed(ConnectionLimits limits) {
+  const std::size_t most = connections_within(raise_descriptor_limit());
+  if (limits.connections > most) {
+    spdlog::warn("the limit of {} connections is lowered to {}, as there are no more descriptors",
+                 limits.connections, most);
+  }
+  limits.connections = limits.connections == 0 ? most : std::min(limits.connections, most);
+  if (limits.per_address == 0) limits.per_address = (limits.connections + 1) / 2;
+  return limits;
+}
+
+}  // namespace
 
 struct Server::Impl {
-  explicit Impl(const ServerSettings& chosen)
-      : settings(chosen), context(static_cast<int>(chosen.threads)) {}
-
-  const ServerSettings settings;
-  std::string address;
-  std::uint16_t port = 0;
-
-  Sessions sessions;  // outlives the context, whose handlers refer to it
-  net::io_context context;
-  std::shared_ptr<Listener> listener;
-  std::vector<std::thread> threads;
-
-  void run_threads() {
+  Impl(std::shared_ptr<const CurrentCatalog> catalog, const ServerSettings& settings,
+       std::vector<ListeningSocket> sockets)
+      : shared(std::move(catalog), settings.viewer, completed(settings.limits), settings.hot_bytes,
+               settings.disk_threads, settings.disk_queue) {
+    port = sockets.front().port();
+    for (const ListeningSocket& socket : sockets) addresses.push_back(socket.address());
     for (unsigned i = 0; i < settings.threads; ++i) {
-      threads.emplace_back([this] { context.run(); });
+      workers.push_back(std::make_unique<Worker>(shared));
     }
+    listener = std::make_unique<Listener>(std::move(sockets), shared, workers);
   }
 
-  // The threads end once the listener and all sessions are closed.
-  void join_threads() {
-    for (std::thread& thread : threads) thread.join();
-    threads.clear();
+  void start() {
+    listener->start();
+    for (const auto& worker : workers) worker->start();
+    running = true;
   }
+
+  bool drained() const {
+    const Clock::time_point end = Clock::now() + shared.limits.drain;
+    return std::ranges::all_of(workers,
+                               [end](const auto& worker) { return worker->ended_by(end); });
+  }
+
+  std::vector<std::string> addresses;
+  std::uint16_t port = 0;
+  Shared shared;
+  std::vector<std::unique_ptr<Worker>> workers;
+  std::unique_ptr<Listener> listener;
+  bool running = false;
 };
 
 Result<std::unique_ptr<Server>> Server::start(std::shared_ptr<const CurrentCatalog> catalog,
                                               const ServerSettings& settings) {
-  error_code error;
-  const net::ip::address address = net::ip::make_address(settings.address, error);
-  if (error) {
-    return Error{ErrorCode::invalid_input, "address " + settings.address,
-                 "is not an IPv4 or IPv6 address", "write it as numbers, such as 127.0.0.1 or ::1"};
-  }
-  auto impl = std::make_unique<Impl>(settings);
-  impl->listener = std::make_shared<Listener>(impl->context, std::move(catalog), settings.limits,
-                                              impl->sessions);
-  const Status opened = impl->listener->open({address, settings.port});
-  if (!opened) return opened.error();
-  std::ostringstream text;
-  text << impl->listener->endpoint();
-  impl->address = text.str();
-  impl->port = impl->listener->endpoint().port();
-  impl->listener->start();
-  impl->run_threads();
+  Result<std::vector<ListeningSocket>> sockets = opened_sockets(settings);
+  if (!sockets) return sockets.error();
+  auto impl = std::make_unique<Impl>(std::move(catalog), settings, std::move(sockets).value());
+  impl->start();
   return std::unique_ptr<Server>(new Server(std::move(impl)));
 }
 
@@ -65,20 +92,23 @@ Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 Server::~Server() { stop(); }
 
-const std::string& Server::address() const { return impl_->address; }
+const std::vector<std::string>& Server::addresses() const { return impl_->addresses; }
+
+const std::string& Server::address() const { return impl_->addresses.front(); }
 
 std::uint16_t Server::port() const { return impl_->port; }
 
 void Server::stop() {
-  if (impl_->threads.empty()) return;
+  if (!impl_->running) return;
+  impl_->running = false;
   impl_->listener->close();
-  const auto sessions = impl_->sessions.stop();
-  for (const auto& session : sessions) session->finish();
-  if (!impl_->sessions.wait_none(impl_->settings.limits.drain)) {
-    spdlog::warn("{} connections are aborted", impl_->sessions.count());
-    for (const auto& session : sessions) session->abort();
+  for (const auto& worker : impl_->workers) worker->finish();
+  if (!impl_->drained()) {
+    spdlog::warn("{} connections are aborted", impl_->shared.admission.count());
+    for (const auto& worker : impl_->workers) worker->abort();
   }
-  impl_->join_threads();
+  for (const auto& worker : impl_->workers) worker->join();
+  impl_->shared.disk.stop();
 }
 
 }  // namespace milepost::server

@@ -1,40 +1,52 @@
-// The tile server: serves a catalog on an address.
+// The tile server: serves a catalog on one or several addresses.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "schema/base/result.h"
 #include "server/catalog/current_catalog.h"
 #include "server/http/settings.h"
+#include "server/listen/listen_address.h"
+#include "server/viewer/viewer.h"
 
 namespace milepost::server {
 
 struct ServerSettings {
-  std::string address = "127.0.0.1";  // IPv4 or IPv6, as numbers
-  std::uint16_t port = 0;             // 0: any free port
-  unsigned threads = 1;               // >= 1; the catalog has at least as many readers
-  ConnectionLimits limits;
+  std::vector<ListenAddress> listen = {{}};  // by default any free port of 127.0.0.1
+  std::vector<int> inherited = {};           // listening sockets, which the server takes over
+  unsigned threads = 1;                      // >= 1, that send and receive
+  unsigned disk_threads = 4;                 // >= 1, that read maps; as many readers are of use
+  std::size_t disk_queue = 1024;             // requests that wait for these threads: then 503
+  std::size_t hot_bytes = 64U << 20U;        // tiles and answers in memory
+  ConnectionLimits limits = {};
+  std::shared_ptr<const Viewer> viewer = nullptr;  // null: with a plain ground
 };
 
-// Handles requests on its own threads from start() to stop().
+// Handles requests on its own threads from start() to stop(). Raises the process's limit of open
+// descriptors as far as it may.
 class Server {
  public:
-  // Errors: invalid_input (address), io (it cannot be listened on).
+  // Errors: invalid_input (an address, an inherited socket; none at all), io (an address cannot be
+  // listened on).
   static Result<std::unique_ptr<Server>> start(std::shared_ptr<const CurrentCatalog> catalog,
                                                const ServerSettings& settings);
   ~Server();  // stop()
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // The address it listens on, with the actual port: "127.0.0.1:8080".
+  // The addresses it listens on, with the actual ports: "127.0.0.1:8080", "unix:/path".
+  const std::vector<std::string>& addresses() const;
+  // The first of them, and its port.
   const std::string& address() const;
   std::uint16_t port() const;
 
-  // Stops accepting, gives responses in progress the drain time to finish, closes every connection
-  // and returns when all threads have ended. A second call does nothing.
-  // Not safe to call from several threads at once.
+  // Accepts what has connected and no more; answers what has been requested, as far as the drain
+  // time goes; closes every connection and returns when all threads have ended. A second call does
+  // nothing. Not safe to call from several threads at once.
   void stop();
 
  private:

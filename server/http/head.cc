@@ -1,34 +1,46 @@
 #include "server/http/head.h"
 
 #include <array>
-#include <ctime>
-#include <sstream>
 
-#include <boost/beast/http/empty_body.hpp>
-#include <boost/beast/http/message.hpp>
-#include <boost/beast/http/write.hpp>
+#include <boost/beast/http/status.hpp>
 
 namespace milepost::server {
-namespace http = boost::beast::http;
+namespace {
 
-std::string head_of(const Response& response, unsigned http_version, bool keep_alive) {
-  http::response<http::empty_body> message;
-  message.version(http_version);
-  message.result(response.status);
-  message.set(http::field::server, "milepost/" MILEPOST_VERSION);
-  message.set(http::field::date, http_date());
-  for (const auto& [name, value] : response.headers) message.set(name, value);
-  if (response.status != 304) message.content_length(response.content_length());
-  message.keep_alive(keep_alive);
-  std::ostringstream text;
-  text << message.base();
-  return std::move(text).str();
+void append_field(std::string& head, std::string_view name, std::string_view value) {
+  head.append(name).append(": ").append(value).append("\r\n");
 }
 
-std::string http_date() {
-  const std::time_t now = std::time(nullptr);
+}  // namespace
+
+// The version of a response is the server's own, whatever the request's is (RFC 9110, section 2.5).
+std::string head_of(const Response& response) {
+  namespace http = boost::beast::http;
+  std::string head = "HTTP/1.1 " + std::to_string(response.status) + ' ';
+  head += std::string(http::obsolete_reason(http::int_to_status(response.status))) + "\r\n";
+  append_field(head, "Server", "milepost/" MILEPOST_VERSION);
+  for (const auto& [name, value] : response.headers) append_field(head, name, value);
+  if (response.status != 304) {
+    append_field(head, "Content-Length", std::to_string(response.content_length()));
+  }
+  return head;
+}
+
+std::string_view HeadEnds::end(std::time_t now, unsigned http_version, bool keep_alive) {
+  if (now != at_) {
+    at_ = now;
+    const std::string date = "Date: " + http_date(now) + "\r\n";
+    open_ = date + "\r\n";
+    open_1_0_ = date + "Connection: keep-alive\r\n\r\n";
+    closed_ = date + "Connection: close\r\n\r\n";
+  }
+  if (!keep_alive) return closed_;
+  return http_version < 11 ? open_1_0_ : open_;
+}
+
+std::string http_date(std::time_t time) {
   std::tm utc{};
-  gmtime_r(&now, &utc);
+  gmtime_r(&time, &utc);
   std::array<char, 64> text{};
   // The program always uses the "C" locale, so the names are in English, as HTTP requires.
   const std::size_t length = std::strftime(text.data(), text.size(), "%a, %d %b %Y %T GMT", &utc);

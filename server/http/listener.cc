@@ -1,87 +1,130 @@
 #include "server/http/listener.h"
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
-#include <sstream>
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
 
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/strand.hpp>
-
-#include "server/http/session.h"
 
 namespace milepost::server {
 namespace {
 
-using Tcp = net::ip::tcp;
-
 constexpr std::chrono::milliseconds kPauseAfterError{100};
-// Connections beyond the limit that are answered with 503; further ones are closed silently.
-constexpr std::size_t kRejected = 64;
+constexpr std::chrono::milliseconds kPauseForRoom{5};
+constexpr std::chrono::seconds kBetweenWarnings{1};
+constexpr int kAcceptedAtOnce = 64;  // then connections have their turn
+
+// The connection was gone before it was accepted; others may wait.
+bool is_of_one_connection(int error) {
+  return error == ECONNABORTED || error == EINTR || error == EPROTO || error == EPERM;
+}
 
 }  // namespace
 
-Listener::Listener(net::io_context& context, std::shared_ptr<const CurrentCatalog> catalog,
-                   const ConnectionLimits& limits, Sessions& sessions)
-    : context_(context),
-      catalog_(std::move(catalog)),
-      limits_(limits),
-      sessions_(sessions),
-      acceptor_(net::make_strand(context)),
-      pause_(acceptor_.get_executor()) {}
-
-Status Listener::open(const Tcp::endpoint& endpoint) {
-  error_code error;
-  acceptor_.open(endpoint.protocol(), error);
-  if (!error) acceptor_.set_option(Tcp::acceptor::reuse_address(true), error);
-  if (!error) acceptor_.bind(endpoint, error);
-  if (!error) acceptor_.listen(Tcp::acceptor::max_listen_connections, error);
-  if (!error) return ok_status();
-  std::ostringstream where;
-  where << endpoint;
-  return Error{ErrorCode::io, where.str(), "cannot be listened on (" + error.message() + ")",
-               "choose another address or port, or end the program that uses it"};
+Listener::Listener(std::vector<ListeningSocket> sockets, Shared& shared,
+                   const std::vector<std::unique_ptr<Worker>>& workers)
+    : shared_(shared), workers_(workers) {
+  for (ListeningSocket& socket : sockets) {
+    doors_.push_back(std::make_unique<Door>(std::move(socket), workers.front()->context()));
+  }
 }
 
 void Listener::start() {
-  const auto run_self = [self = shared_from_this()] { return self->run(); };
-  net::co_spawn(acceptor_.get_executor(), run_self, net::detached);
+  for (const auto& door : doors_) {
+    const net::generic::stream_protocol any(AF_INET, 0);  // only waited on: the family is not used
+    door->acceptor.assign(any, door->socket.descriptor());
+    await(*door);
+  }
 }
 
 void Listener::close() {
-  net::post(acceptor_.get_executor(), [self = shared_from_this()] {
-    error_code ignored;  // the socket is closed in any case
-    self->acceptor_.close(ignored);
-    self->pause_.cancel();
+  std::promise<void> closed;
+  net::post(workers_.front()->context(), [this, &closed] {
+    for (const auto& door : doors_) {
+      while (accept_one(*door)) {
+      }
+      door->pause.cancel();
+      door->acceptor.release();
+    }
+    doors_.clear();
+    closed.set_value();
+  });
+  closed.get_future().wait();
+}
+
+void Listener::await(Door& door) {
+  door.acceptor.async_wait(Acceptor::wait_read, [this, &door](const error_code& error) {
+    if (!error) accept(door);
   });
 }
 
-net::awaitable<void> Listener::run() {
-  while (acceptor_.is_open()) {
-    error_code error;
-    const net::any_io_executor strand = net::make_strand(context_);
-    Tcp::socket socket = co_await acceptor_.async_accept(strand, awaited(error));
-    if (!error) {
-      welcome(std::move(socket));
-    } else if (acceptor_.is_open()) {  // transient, such as no free file descriptors
-      spdlog::warn("a connection cannot be accepted ({}); accepting continues", error.message());
-      pause_.expires_after(kPauseAfterError);
-      co_await pause_.async_wait(awaited(error));
-    }
+void Listener::accept(Door& door) {
+  for (int i = 0; i < kAcceptedAtOnce; ++i) {
+    if (shared_.admission.overfull()) return pause(door, kPauseForRoom);
+    if (accept_one(door)) continue;
+    if (errno == EAGAIN) break;
+    spdlog::warn("{}: a connection cannot be accepted ({}); accepting continues",
+                 door.socket.address(), std::generic_category().message(errno));
+    return pause(door, kPauseAfterError);
   }
+  await(door);
 }
 
-void Listener::welcome(Tcp::socket socket) {
-  const std::size_t open = sessions_.count();
-  if (open >= limits_.connections + kRejected) {
-    spdlog::warn("a connection is closed: {} are open", open);
-    return;
+void Listener::pause(Door& door, std::chrono::milliseconds duration) {
+  door.pause.expires_after(duration);
+  door.pause.async_wait([this, &door](const error_code& ended) {
+    if (!ended) accept(door);
+  });
+}
+
+// False if there is none, or none can be accepted as memory or descriptors are short: errno is set.
+bool Listener::accept_one(Door& door) {
+  SocketAddress address;
+  const int descriptor = ::accept4(door.socket.descriptor(), address.data(), &address.bytes,
+                                   SOCK_NONBLOCK | SOCK_CLOEXEC);
+  if (descriptor < 0 && !is_of_one_connection(errno)) return false;
+  if (descriptor >= 0) welcome(descriptor, address);
+  return true;
+}
+
+void Listener::welcome(int descriptor, const SocketAddress& address) {
+  const int on = 1;
+  if (!address.is_unix()) {
+    ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
   }
-  const bool serve = open < limits_.connections;
-  if (!serve) spdlog::warn("a connection is rejected: {} are open", open);
-  const auto service = serve ? Session::Service::serve : Session::Service::reject;
-  std::make_shared<Session>(std::move(socket), service, catalog_, limits_, sessions_)->start();
+  Peer peer = Peer::of(address);
+  Admission::Ticket ticket = shared_.admission.enter(peer);
+  const Admission::Verdict verdict = ticket.verdict();
+  Accepted accepted(descriptor, address.storage.ss_family, std::move(peer), std::move(ticket));
+  if (verdict == Admission::Verdict::reject || verdict == Admission::Verdict::drop) {
+    warn_of_rejection();
+  }
+  if (verdict != Admission::Verdict::drop) worker_for(verdict).adopt(std::move(accepted));
+}
+
+// One after the other; if a connection has to go, the one where that has been idle for longest.
+Worker& Listener::worker_for(Admission::Verdict verdict) {
+  if (verdict == Admission::Verdict::replace) {
+    return **std::ranges::min_element(
+        workers_, {}, [](const auto& worker) { return worker->first_idle_deadline(); });
+  }
+  next_worker_ = (next_worker_ + 1) % workers_.size();
+  return *workers_[next_worker_];
+}
+
+void Listener::warn_of_rejection() {
+  ++rejected_;
+  const Clock::time_point now = Clock::now();
+  if (now - warned_ < kBetweenWarnings) return;
+  spdlog::warn("{} connections are rejected: {} are open", rejected_, shared_.admission.count());
+  warned_ = now;
+  rejected_ = 0;
 }
 
 }  // namespace milepost::server

@@ -1,46 +1,52 @@
-// Accepts connections until it is closed.
+// Accepts connections and hands them to the workers.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <vector>
 
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
-
-#include "schema/base/result.h"
-#include "server/catalog/current_catalog.h"
-#include "server/http/asio.h"
-#include "server/http/sessions.h"
-#include "server/http/settings.h"
+#include "server/http/worker.h"
+#include "server/listen/listening_socket.h"
+#include "server/listen/socket_address.h"
 
 namespace milepost::server {
 
-// Runs on a strand of its own.
-class Listener : public std::enable_shared_from_this<Listener> {
+// Runs on the thread of the first worker.
+class Listener {
  public:
-  // `context` and `sessions` must outlive the listener.
-  Listener(net::io_context& context, std::shared_ptr<const CurrentCatalog> catalog,
-           const ConnectionLimits& limits, Sessions& sessions);
+  // REQUIRES: at least one worker. `shared` and the workers must outlive the listener.
+  Listener(std::vector<ListeningSocket> sockets, Shared& shared,
+           const std::vector<std::unique_ptr<Worker>>& workers);
 
-  // Binds and listens. Errors: io (the address is not ours, or in use, or not permitted).
-  Status open(const net::ip::tcp::endpoint& endpoint);
-  // REQUIRES: open.
-  net::ip::tcp::endpoint endpoint() const { return acceptor_.local_endpoint(); }
-
+  // Before the workers start.
   void start();
-  // May be called from any thread.
+  // From any other thread, once, while the first worker runs: accepts what has connected, closes
+  // the sockets and returns.
   void close();
 
  private:
-  net::awaitable<void> run();
-  void welcome(net::ip::tcp::socket socket);
+  struct Door {
+    Door(ListeningSocket opened, net::io_context& context)
+        : socket(std::move(opened)), acceptor(context), pause(context) {}
+    ListeningSocket socket;
+    Acceptor acceptor;  // waits for connections of `socket`
+    Timer pause;
+  };
 
-  net::io_context& context_;
-  const std::shared_ptr<const CurrentCatalog> catalog_;
-  const ConnectionLimits limits_;
-  Sessions& sessions_;
-  net::ip::tcp::acceptor acceptor_;
-  net::steady_timer pause_;
+  void await(Door& door);
+  void accept(Door& door);
+  void pause(Door& door, std::chrono::milliseconds duration);
+  bool accept_one(Door& door);
+  void welcome(int descriptor, const SocketAddress& address);
+  Worker& worker_for(Admission::Verdict verdict);
+  void warn_of_rejection();
+
+  Shared& shared_;
+  const std::vector<std::unique_ptr<Worker>>& workers_;
+  std::vector<std::unique_ptr<Door>> doors_;
+  std::size_t next_worker_ = 0;
+  std::size_t rejected_ = 0;  // since the last warning
+  Clock::time_point warned_;
 };
 
 }  // namespace milepost::server

@@ -13,6 +13,8 @@ namespace {
 
 using Fields = http::request<http::string_body>;
 
+constexpr std::size_t kEmptyLines = 8;  // skipped before a request; then it is none
+
 constexpr const char* kTwoFramings =
     "the request has both Content-Length and Transfer-Encoding; send one of the two";
 constexpr const char* kNoLength =
@@ -77,8 +79,15 @@ RequestParser::RequestParser(const ConnectionLimits& limits) : header_limit_(lim
   parser_.eager(false);  // stops between header and body
 }
 
+bool RequestParser::wants_continue() const {
+  const Fields& fields = parser_.get();
+  return parser_.is_header_done() && !done() && fields.version() >= 11 &&
+         boost::beast::iequals(fields[http::field::expect], "100-continue");
+}
+
 std::size_t RequestParser::take(std::string_view bytes) {
-  std::size_t taken = 0;
+  std::size_t taken = untouched() ? take_empty_lines(bytes) : 0;
+  if (untouched() && bytes.substr(taken) == "\r") return taken;  // perhaps of one more
   error_code error;
   while (!done() && !error && taken < bytes.size()) {
     const std::string_view rest = bytes.substr(taken);
@@ -98,6 +107,15 @@ std::size_t RequestParser::take(std::string_view bytes) {
     refuse(413, "the request's body is too long; no path of this server takes one");
   } else {
     refuse(400, fault_of(error, parser_.get()));
+  }
+  return taken;
+}
+
+// Clients of old end a request with one line end too many (RFC 9112, section 2.2).
+std::size_t RequestParser::take_empty_lines(std::string_view bytes) {
+  std::size_t taken = 0;
+  for (; empty_lines_ < kEmptyLines && bytes.substr(taken).starts_with("\r\n"); taken += 2) {
+    ++empty_lines_;
   }
   return taken;
 }
@@ -126,8 +144,10 @@ void RequestParser::end_head() {
 
 // `rest`: the bytes of the head that were not taken.
 void RequestParser::refuse_long_head(std::string_view rest) {
+  const std::size_t line_end = rest.find("\r\n");
   const bool has_first_line =
-      !parser_.get().target().empty() || rest.find("\r\n") != std::string_view::npos;
+      !parser_.get().target().empty() ||
+      (line_end != std::string_view::npos && head_bytes_ + line_end <= header_limit_);
   if (has_first_line) {
     refuse(431, "the request's header is too long; send fewer or shorter fields");
   } else {

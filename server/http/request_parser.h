@@ -37,12 +37,18 @@ class RequestParser {
   std::size_t take(std::string_view bytes);
   // The request is complete, or rejected.
   bool done() const { return incoming_.refusal.has_value() || parser_.is_done(); }
+  // Not a byte of a request has come, except for empty lines before it.
+  bool untouched() const { return head_bytes_ == 0; }
+  // The client sends the body only after 100 Continue (RFC 9110, section 10.1.1).
+  bool wants_continue() const;
   // REQUIRES: done().
   const Incoming& incoming() const { return incoming_; }
+  Incoming& incoming() { return incoming_; }
 
  private:
   using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
 
+  std::size_t take_empty_lines(std::string_view bytes);
   void take_head(std::string_view part, const error_code& error);
   void end_head();
   void refuse_long_head(std::string_view rest);
@@ -51,7 +57,8 @@ class RequestParser {
   Parser parser_;
   std::size_t header_limit_;  // bytes
   std::size_t head_bytes_ = 0;
-  bool folded_ = false;  // a field continued on a second line
+  std::size_t empty_lines_ = 0;  // before the request
+  bool folded_ = false;          // a field continued on a second line
   Incoming incoming_;
 };
 

@@ -75,6 +75,12 @@ void write_heads(const SeedFolder& seeds) {
       get + "Transfer-Encoding: chunked\r\n\r\n3;x=y\r\nabc\r\n0\r\nT: r\r\n\r\n" + get + "\r\n");
   seeds.write("http_head", "both",
               get + "Transfer-Encoding: chunked\r\nContent-Length: 3\r\n\r\nabc");
+  seeds.write(
+      "http_head", "plain",
+      get + "If-None-Match: \"x\"\r\nConnection: Keep-Alive\r\nAccept:  */* \r\n\r\n" +
+          "HEAD /v1/segments?near=49,8&radius_m=5 HTTP/1.1\r\nhost:\r\nconnection: close\r\n\r\n");
+  seeds.write("http_head", "empty_lines", "\r\n\r\n" + get + "\r\n\r\n" + get + "\r\n");
+  seeds.write("http_head", "expect", get + "Content-Length: 3\r\nExpect: 100-continue\r\n\r\nabc");
   seeds.write("http_head", "old", "HEAD / HTTP/1.0\r\nIf-None-Match: \"x\",\r\n W/\"y\"\r\n\r\n");
 }
 

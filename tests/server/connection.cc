@@ -4,6 +4,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/time.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,7 +31,9 @@ void parse_head(const std::string& head, Reply& reply) {
 
 }  // namespace
 
-Connection::Connection() : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+Connection::Connection() : Connection(::socket(AF_INET, SOCK_STREAM, 0)) {}
+
+Connection::Connection(int socket) : socket_(socket) {
   const timeval patience{60, 0};
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
 }
@@ -41,6 +44,34 @@ Connection::Connection(std::uint16_t port, int receive_buffer_bytes) : Connectio
                  sizeof(receive_buffer_bytes));
   }
   if (!connect(port)) throw std::runtime_error("cannot connect");
+}
+
+Connection::Connection(std::uint16_t port, const char* source) : Connection() {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  inet_pton(AF_INET, source, &address.sin_addr);
+  ::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  if (!connect(port)) throw std::runtime_error("cannot connect");
+}
+
+Connection::Connection(const std::filesystem::path& unix_socket)
+    : Connection(::socket(AF_UNIX, SOCK_STREAM, 0)) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string path = unix_socket;
+  std::copy(path.begin(), path.end(), std::begin(address.sun_path));
+  if (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    throw std::runtime_error("cannot connect");
+  }
+}
+
+void Connection::end_sending() { ::shutdown(socket_, SHUT_WR); }
+
+void Connection::reset() {
+  const linger at_once{1, 0};
+  ::setsockopt(socket_, SOL_SOCKET, SO_LINGER, &at_once, sizeof(at_once));
+  ::close(socket_);
+  socket_ = -1;
 }
 
 bool Connection::connect(std::uint16_t port) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -25,11 +26,18 @@ class Connection {
  public:
   Connection();  // a socket that is not connected yet
   explicit Connection(std::uint16_t port, int receive_buffer_bytes = 0);
+  // From another address of this host's own, such as 127.0.0.2.
+  Connection(std::uint16_t port, const char* source);
+  explicit Connection(const std::filesystem::path& unix_socket);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
   bool connect(std::uint16_t port);
+  // No more bytes will be sent.
+  void end_sending();
+  // Closes so that the peer receives a reset.
+  void reset();
   // False if the peer has closed.
   bool send(std::string_view bytes);
   void send_get(const std::string& target, const std::string& more_headers = "");
@@ -41,6 +49,7 @@ class Connection {
   std::string read(std::size_t count);
 
  private:
+  explicit Connection(int socket);
   bool fill();
 
   int socket_;

@@ -1,7 +1,6 @@
 #include "server/server.h"
 
 #include <gmock/gmock.h>
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <atomic>
@@ -11,63 +10,14 @@
 
 #include "schema/store/sqlite.h"
 #include "tests/server/connection.h"
-#include "tests/server/test_map.h"
+#include "tests/server/server_fixture.h"
 
 namespace milepost::server {
 namespace {
 
-std::shared_ptr<const CurrentCatalog> served(std::shared_ptr<const Catalog> catalog) {
-  return std::make_shared<CurrentCatalog>(std::move(catalog));
-}
-
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-class ServerTest : public ::testing::Test {
- protected:
-  ServerTest() { spdlog::set_level(spdlog::level::off); }
-
-  void start(std::size_t frame_bytes = 1000, const ConnectionLimits& limits = {}) {
-    town_ = write_town(folder_.path() / "town.map", frame_bytes);
-    ServerSettings settings;
-    settings.threads = 2;
-    settings.limits = limits;
-    auto server = Server::start(served(open_catalog(folder_.path(), settings.threads)), settings);
-    ASSERT_TRUE(server.ok()) << server.error().line();
-    server_ = std::move(*server);
-    port_ = server_->port();
-  }
-
-  std::string segment_path() const {
-    return "/v1/maps/town/builds/" + town_.build + "/segments/s1";
-  }
-  std::string areas_path() const { return "/v1/maps/town/builds/" + town_.build + "/areas"; }
-  std::string range_path(int from_m, int to_m) const {
-    return segment_path() + "/tiles?layer=tracklets&from_m=" + std::to_string(from_m) +
-           "&to_m=" + std::to_string(to_m);
-  }
-  // The encoded tiles `first` to `last`, one after the other.
-  std::string frames(std::size_t first, std::size_t last) const {
-    std::string bytes;
-    for (std::size_t i = first; i <= last; ++i) bytes += as_text(town_.frames[i]);
-    return bytes;
-  }
-  bool serves() const { return fetch(port_, "/healthz").body == "ok\n"; }
-  // Whether the server, now full, soon serves again.
-  bool becomes_free() const {
-    for (int i = 0; i < 3000; ++i) {
-      if (fetch(port_, "/healthz").status == 200) return true;
-      std::this_thread::sleep_for(10ms);
-    }
-    return false;
-  }
-
-  TemporaryFolder folder_;
-  TownMap town_;
-  std::unique_ptr<Server> server_;
-  std::uint16_t port_ = 0;
-};
 
 TEST_F(ServerTest, AnswersOnTheAddressItNames) {
   start();
@@ -406,12 +356,17 @@ TEST_F(ServerTest, RefusedClientMayGoOnSending) {
   }
 }
 
-TEST_F(ServerTest, HalfARequestIsClosedInTime) {
+TEST_F(ServerTest, HalfARequestIs408InTime) {
   ConnectionLimits limits;
   limits.request = 200ms;
   start(1000, limits);
   Connection connection(port_);
   connection.send("GET /healthz HTTP/1.1\r\nHo");
+  const Reply reply = connection.receive();
+  EXPECT_EQ(reply.status, 408);
+  EXPECT_EQ(reply.header("content-type"), "application/problem+json");
+  EXPECT_EQ(reply.header("connection"), "close");
+  EXPECT_TRUE(reply.whole);
   EXPECT_TRUE(connection.closed());
   EXPECT_TRUE(serves());
 }
@@ -484,31 +439,6 @@ TEST_F(ServerTest, ClientThatLeavesInTheMiddleDoesNoHarm) {
   EXPECT_EQ(fetch(port_, range_path(0, 10)).body, frames(0, 0));
 }
 
-TEST_F(ServerTest, TooManyConnectionsAreTurnedAwayAndLaterServed) {
-  ConnectionLimits limits;
-  limits.connections = 2;
-  start(1000, limits);
-  {
-    Connection first(port_);
-    Connection second(port_);
-    for (Connection* connection : {&first, &second}) {  // a response shows that it is counted
-      connection->send_get("/healthz");
-      EXPECT_EQ(connection->receive().status, 200);
-    }
-    Connection third(port_);
-    third.send_get("/healthz");
-    const Reply busy = third.receive();
-    EXPECT_EQ(busy.status, 503);
-    EXPECT_EQ(busy.header("retry-after"), "1");
-    EXPECT_EQ(busy.header("content-type"), "application/problem+json");
-    EXPECT_EQ(busy.header("connection"), "close");
-    EXPECT_TRUE(third.closed());
-    first.send_get("/healthz");
-    EXPECT_EQ(first.receive().status, 200);
-  }
-  EXPECT_TRUE(becomes_free());
-}
-
 TEST_F(ServerTest, AcceptingGoesOnAfterErrors) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the undefined behaviour sanitizer needs file descriptors for its own checks";
@@ -557,61 +487,6 @@ TEST_F(ServerTest, DamagedLaterTileBreaksTheAnswerOff) {
   EXPECT_FALSE(reply.whole);
   EXPECT_EQ(reply.body, frames(0, 1));
   EXPECT_TRUE(serves());
-}
-
-TEST_F(ServerTest, StopEndsIdleConnectionsAtOnce) {
-  ConnectionLimits limits;
-  limits.drain = 1h;
-  start(1000, limits);
-  Connection connection(port_);
-  connection.send_get("/healthz");
-  EXPECT_EQ(connection.receive().status, 200);
-  server_->stop();
-  EXPECT_TRUE(connection.closed());
-  EXPECT_THROW(Connection late(port_), std::runtime_error);
-  server_->stop();
-}
-
-TEST_F(ServerTest, StopLetsAnAnswerUnderWayEnd) {
-  ConnectionLimits limits;
-  limits.drain = 30s;
-  start(4'000'000, limits);
-  Connection connection(port_, 4096);
-  connection.send_get(range_path(0, 200));
-  EXPECT_EQ(connection.read(4), "HTTP");
-  std::thread stopping([this] { server_->stop(); });
-  const std::string rest = connection.read(100'000'000);
-  stopping.join();
-  EXPECT_TRUE(rest.ends_with(frames(0, 3)));
-}
-
-TEST_F(ServerTest, StopBreaksOffAnAnswerThatDoesNotEnd) {
-  ConnectionLimits limits;
-  limits.drain = 100ms;
-  start(16'000'000, limits);
-  Connection connection(port_, 4096);
-  connection.send_get(range_path(0, 200));
-  EXPECT_EQ(connection.read(4), "HTTP");
-  server_->stop();
-  EXPECT_LT(connection.read(100'000'000).size(), frames(0, 3).size());
-}
-
-TEST_F(ServerTest, AddressInUseIsAnError) {
-  start();
-  ServerSettings settings;
-  settings.port = port_;
-  const auto second = Server::start(served(open_catalog(folder_.path())), settings);
-  ASSERT_FALSE(second.ok());
-  EXPECT_THAT(second.error().line(), HasSubstr(server_->address() + ": cannot be listened on"));
-}
-
-TEST_F(ServerTest, AddressThatIsNoneIsAnError) {
-  ServerSettings settings;
-  settings.address = "localhost";
-  const auto server = Server::start(served(open_catalog(folder_.path())), settings);
-  ASSERT_FALSE(server.ok());
-  EXPECT_THAT(server.error().line(),
-              HasSubstr("address localhost: is not an IPv4 or IPv6 address"));
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+#include "server/hot/prepared.h"
+
+#include "server/http/head.h"
+#include "server/message/conditional.h"
+
+namespace milepost::server {
+
+std::size_t Prepared::bytes() const {
+  std::size_t bytes = sizeof(Prepared) + head.size();
+  if (unchanged) bytes += unchanged->bytes();
+  if (const auto* text = std::get_if<SharedText>(&response.body)) {
+    return bytes + (*text ? (*text)->size() : 0);
+  }
+  if (const auto* list = std::get_if<TileList>(&response.body)) {
+    return bytes + list->tiles.size() * sizeof(list->tiles.front());
+  }
+  const auto& cells = std::get<CellList>(response.body).cells;
+  return bytes + cells.size() * sizeof(cells.front());
+}
+
+PreparedAnswer prepared(Response response) {
+  auto answer = std::make_shared<Prepared>();
+  answer->head = head_of(response);
+  if (response.status == 200 && !response.header("ETag").empty()) {
+    answer->unchanged = prepared(unless_known(response, response.header("ETag")));
+  }
+  answer->response = std::move(response);
+  return answer;
+}
+
+const PreparedAnswer& unless_known(const PreparedAnswer& answer, std::string_view if_none_match) {
+  if (if_none_match.empty() || !answer->unchanged) return answer;
+  return names_tag(if_none_match, answer->response.header("ETag")) ? answer->unchanged : answer;
+}
+
+}  // namespace milepost::server

@@ -1,0 +1,82 @@
+#include "server/http/answering.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <string_view>
+#include <utility>
+
+#include "server/hot/frames_of.h"
+#include "server/log/printable.h"
+#include "server/routes/handle.h"
+
+namespace milepost::server {
+namespace {
+
+// Their answers are parts of the catalog, or constant.
+constexpr std::array<std::string_view, 4> kWithoutDisk = {"/healthz", "/readyz", "/openapi.yaml",
+                                                          "/v1/maps"};
+
+bool asks_for_content(const Request& request) {
+  return request.method == "GET" || request.method == "HEAD";
+}
+
+// The answer without regard to If-None-Match.
+Response unconditional(const Request& request, const Catalog& catalog, const Viewer* viewer) {
+  try {
+    return handle({request.method, request.target, {}}, catalog,
+                  viewer == nullptr ? Viewer::plain() : *viewer);
+  } catch (const std::exception& failure) {
+    spdlog::error("{} {}: {}", printable(request.method), printable(request.target),
+                  failure.what());
+    return problem(500, "the server failed on this request; its log says why");
+  }
+}
+
+// Null if it is not in memory.
+PreparedAnswer hot_answer(const Request& request, Shared& shared) {
+  const std::shared_ptr<const Catalog> catalog = shared.catalog->now();
+  PreparedAnswer hot = shared.answers.find(request.target, catalog);
+  if (hot) return hot;
+  if (std::ranges::find(kWithoutDisk, request.target) == kWithoutDisk.end()) return nullptr;
+  hot = prepared(unconditional(request, *catalog, shared.viewer.get()));
+  shared.answers.add(request.target, catalog, hot);
+  return hot;
+}
+
+bool has_frames(const Request& request, const Response& response) {
+  return request.method != "HEAD" && frame_count(response) > 0;
+}
+
+}  // namespace
+
+Answer answer_from_memory(const Request& request, Shared& shared) {
+  Answer answer;
+  if (!asks_for_content(request)) return answer;
+  const PreparedAnswer hot = hot_answer(request, shared);
+  if (!hot) return answer;
+  const PreparedAnswer& chosen = unless_known(hot, request.if_none_match);
+  if (has_frames(request, chosen->response)) {
+    Frame first = shared.frames.find(frame_digest(chosen->response, 0));
+    if (!first) return answer;
+    answer.frames.push_back(std::move(first));
+  }
+  answer.prepared = chosen;
+  return answer;
+}
+
+Answer answer_from_disk(const Request& request, Shared& shared) {
+  const std::shared_ptr<const Catalog> catalog = shared.catalog->now();
+  const PreparedAnswer found = prepared(unconditional(request, *catalog, shared.viewer.get()));
+  if (asks_for_content(request)) shared.answers.add(request.target, catalog, found);
+  const PreparedAnswer& chosen = unless_known(found, request.if_none_match);
+  if (!has_frames(request, chosen->response)) return {chosen, {}};
+  Result<std::vector<Frame>> frames = read_frames(chosen->response, 0, shared.frames);
+  if (frames) return {chosen, std::move(frames).value()};
+  spdlog::error("{}", frames.error().line());
+  return {prepared(problem(500, "the map cannot be read; the server's log says why")), {}};
+}
+
+}  // namespace milepost::server

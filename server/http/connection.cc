@@ -1,0 +1,311 @@
+#include "server/http/connection.h"
+
+#include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include <boost/asio/post.hpp>
+
+namespace milepost::server {
+namespace {
+
+constexpr int kRequestsAtOnce = 64;                 // then other connections have their turn
+constexpr std::size_t kBytesAtOnce = 1'048'576;     // the same
+constexpr std::size_t kStallBytes = 65'536;         // a client has `stall` to take them
+constexpr std::size_t kDiscardedBytes = 1'048'576;  // at most, after the last response
+constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+
+const PreparedAnswer& too_many_connections() {
+  static const PreparedAnswer answer =
+      prepared(problem(503, "too many connections are open; try again later"));
+  return answer;
+}
+
+const PreparedAnswer& disk_is_busy() {
+  static const PreparedAnswer answer =
+      prepared(problem(503, "too many requests wait for the disk; try again later"));
+  return answer;
+}
+
+const PreparedAnswer& request_timed_out() {
+  static const PreparedAnswer answer =
+      prepared(problem(408, "the request did not arrive in time; send it again at once"));
+  return answer;
+}
+
+bool is_to_be_repeated(int error) { return error == EAGAIN || error == EINTR; }
+
+}  // namespace
+
+Connection::Connection(Worker& worker, Accepted accepted)
+    : worker_(worker),
+      shared_(worker.shared()),
+      socket_(worker.context()),
+      peer_(std::move(accepted.peer.host)),
+      ticket_(std::move(accepted.ticket)),
+      reader_(shared_.limits) {
+  error_code error;
+  const int descriptor = accepted.release();
+  socket_.assign(net::generic::stream_protocol(accepted.family, 0), descriptor, error);
+  if (error) ::close(descriptor);
+  if (!error) socket_.native_non_blocking(true, error);
+  closed_ = bool(error);
+}
+
+void Connection::start() {
+  if (!closed_) await_request();
+}
+
+void Connection::reject() {
+  if (!closed_) refuse(too_many_connections());
+}
+
+void Connection::expire() {
+  if (phase == Phase::request) {
+    refuse(request_timed_out());
+  } else if (phase == Phase::last && has_bytes()) {
+    worker_.wait(*this, Phase::last);
+  } else {
+    close();
+  }
+}
+
+bool Connection::has_bytes() const {
+  int bytes = 0;
+  const int socket = const_cast<Socket&>(socket_).native_handle();  // which Asio does not offer
+  return ::ioctl(socket, FIONREAD, &bytes) == 0 && bytes > 0;
+}
+
+void Connection::close() {
+  if (closed_) return;
+  closed_ = true;
+  if (responding_) report(true);
+  outgoing_.end();
+  error_code ignored;  // it is closed in any case
+  socket_.close(ignored);
+  worker_.forget(*this);
+}
+
+void Connection::await_bytes() {
+  if (awaiting_bytes_) return;
+  awaiting_bytes_ = true;
+  socket_.async_wait(Socket::wait_read, [self = shared_from_this()](const error_code&) {
+    self->awaiting_bytes_ = false;
+    if (!self->closed_ && !self->responding_) self->receive();
+  });
+}
+
+void Connection::receive() {
+  auto& scratch = worker_.scratch();
+  const ssize_t received = ::recv(socket_.native_handle(), scratch.data(), scratch.size(), 0);
+  if (received < 0 && is_to_be_repeated(errno)) return await_bytes();
+  if (received <= 0) return close();
+  const auto bytes = static_cast<std::size_t>(received);
+  if (phase == Phase::linger) return discard(bytes);
+  reader_.add({scratch.data(), bytes});
+  serve();
+}
+
+void Connection::discard(std::size_t bytes) {
+  discarded_bytes_ += bytes;
+  if (discarded_bytes_ > kDiscardedBytes) return close();
+  await_bytes();
+}
+
+// Answers the requests that have arrived.
+void Connection::serve() {
+  int requests = 0;
+  while (!closed_ && !responding_ && phase != Phase::linger) {
+    if (requests == kRequestsAtOnce) {
+      net::post(worker_.context(), [self = shared_from_this()] { self->serve(); });
+      break;
+    }
+    if (!reader_.next(incoming_)) {
+      await_request();
+      break;
+    }
+    ++requests;
+    in_request_ = false;
+    answer();
+  }
+  reader_.keep();
+}
+
+void Connection::await_request() {
+  if (reader_.wants_continue()) {
+    // There is room for it: nothing else is being sent.
+    ::send(socket_.native_handle(), kContinue.data(), kContinue.size(), MSG_NOSIGNAL);
+  }
+  if (reader_.empty()) {
+    worker_.wait(*this, worker_.finishing() ? Phase::last : Phase::idle);
+  } else if (!in_request_) {
+    worker_.wait(*this, Phase::request);
+  }
+  in_request_ = !reader_.empty();
+  await_bytes();
+}
+
+void Connection::answer() {
+  begun_ = Clock::now();
+  responding_ = true;
+  if (incoming_.refusal) return respond({prepared(std::move(*incoming_.refusal)), {}});
+  Answer hot = answer_from_memory(incoming_.request, shared_);
+  if (hot.prepared) return respond(std::move(hot));
+  answer_later();
+}
+
+void Connection::answer_later() {
+  const bool accepted =
+      shared_.disk.try_run([self = shared_from_this(), request = incoming_.request]() mutable {
+        Worker& worker = self->worker_;
+        Answer answer = answer_from_disk(request, self->shared_);
+        // The connection must end on its own thread: nothing of it stays here.
+        net::post(worker.context(), [self = std::move(self), answer = std::move(answer)]() mutable {
+          if (self->closed_) return;
+          self->respond(std::move(answer));
+          self->serve();
+        });
+      });
+  if (!accepted) return respond({disk_is_busy(), {}});
+  worker_.wait(*this, Phase::disk);
+}
+
+// Answers what is no request, or none that can be served, and closes.
+void Connection::refuse(PreparedAnswer answer) {
+  begun_ = Clock::now();
+  responding_ = true;
+  incoming_ = {{"-", "-", {}}, 11, false, {}};
+  respond({std::move(answer), {}});
+}
+
+void Connection::respond(Answer answer) {
+  // At a stop, the last response to requests that have arrived says that it is the last.
+  const bool last = worker_.finishing() && reader_.empty();
+  keep_alive_ = incoming_.keep_alive && !last;
+  broken_ = false;
+  sent_bytes_ = 0;
+  outgoing_.begin(std::move(answer.prepared), worker_.head_end(incoming_.http_version, keep_alive_),
+                  incoming_.request.method != "HEAD");
+  for (Frame& frame : answer.frames) outgoing_.add(std::move(frame));
+  send();
+}
+
+// Sends until the response is complete, or something must be waited for.
+void Connection::send() {
+  std::size_t limit = outgoing_.ready_bytes() + kBytesAtOnce;
+  while (responding_ && !closed_) {
+    add_hot_frames();
+    if (outgoing_.complete()) return end_response();
+    read_ahead();
+    const std::size_t ready = outgoing_.ready_bytes();
+    if (ready == 0 && broken_) return close();
+    if (ready == 0) return worker_.wait(*this, Phase::disk);
+    if (!send_some()) return;
+    const std::size_t sent = ready - outgoing_.ready_bytes();
+    if (sent >= limit) {
+      net::post(worker_.context(), [self = shared_from_this()] {
+        self->send();
+        self->serve();
+      });
+      return;
+    }
+    limit -= sent;
+  }
+}
+
+// False if nothing can be sent now.
+bool Connection::send_some() {
+  std::array<iovec, 64> buffers;
+  msghdr message{};
+  message.msg_iov = buffers.data();
+  message.msg_iovlen = outgoing_.gather(buffers);
+  const ssize_t sent = ::sendmsg(socket_.native_handle(), &message, MSG_NOSIGNAL);
+  if (sent < 0 && is_to_be_repeated(errno)) {
+    await_room();
+    return false;
+  }
+  if (sent < 0) {
+    close();
+    return false;
+  }
+  outgoing_.sent(static_cast<std::size_t>(sent));
+  sent_bytes_ += static_cast<std::size_t>(sent);
+  return true;
+}
+
+void Connection::await_room() {
+  if (phase != Phase::send || sent_bytes_ >= kStallBytes) {
+    worker_.wait(*this, Phase::send);
+    sent_bytes_ = 0;
+  }
+  if (awaiting_room_) return;
+  awaiting_room_ = true;
+  socket_.async_wait(Socket::wait_write, [self = shared_from_this()](const error_code&) {
+    self->awaiting_room_ = false;
+    if (self->closed_) return;
+    self->send();
+    self->serve();
+  });
+}
+
+void Connection::add_hot_frames() {
+  while (!reading_ && outgoing_.wants_frame()) {
+    Frame frame = shared_.frames.find(frame_digest(outgoing_.response(), outgoing_.next_frame()));
+    if (!frame) return;
+    outgoing_.add(std::move(frame));
+  }
+}
+
+void Connection::read_ahead() {
+  if (reading_ || broken_ || !outgoing_.wants_frame()) return;
+  reading_ = true;
+  shared_.disk.run([self = shared_from_this(), answer = outgoing_.answer(),
+                    first = outgoing_.next_frame()]() mutable {
+    Worker& worker = self->worker_;
+    auto frames = read_frames(answer->response, first, self->shared_.frames);
+    net::post(worker.context(), [self = std::move(self), frames = std::move(frames)]() mutable {
+      self->reading_ = false;
+      if (!self->closed_) self->add_frames(std::move(frames));
+    });
+  });
+}
+
+void Connection::add_frames(Result<std::vector<Frame>> frames) {
+  if (frames) {
+    for (const Frame& frame : *frames) outgoing_.add(frame);
+  } else {
+    spdlog::error("{}", frames.error().line());
+    broken_ = true;
+  }
+  if (!awaiting_room_) send();
+  serve();
+}
+
+void Connection::end_response() {
+  report(false);
+  outgoing_.end();
+  responding_ = false;
+  if (!keep_alive_) linger();
+}
+
+// Closes so that the client receives the last response even if it is still sending: closing a
+// socket with unread bytes resets the connection, which may discard the response.
+void Connection::linger() {
+  ::shutdown(socket_.native_handle(), SHUT_WR);
+  worker_.wait(*this, Phase::linger);
+  await_bytes();
+}
+
+void Connection::report(bool aborted) const {
+  if (!outgoing_.begun()) return;
+  const Response& response = outgoing_.response();
+  observe({peer_, incoming_.request.method, incoming_.request.target, response.status,
+           response.content_length(), Clock::now() - begun_, aborted});
+}
+
+}  // namespace milepost::server

@@ -1,0 +1,81 @@
+// One connection: answers its requests one after the other.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/http/answering.h"
+#include "server/http/exchange.h"
+#include "server/http/outgoing.h"
+#include "server/http/request_reader.h"
+#include "server/http/worker.h"
+
+namespace milepost::server {
+
+// Lives on the thread of its worker; what waits for it (a socket, the disk) keeps it alive.
+//
+//   receive -> serve: the next request -> answer (from memory, or wait for the disk) -> send ->
+//   serve
+//
+// At any time it waits for its client, or for the disk, or for both while it reads ahead.
+class Connection : public Waiting, public std::enable_shared_from_this<Connection> {
+ public:
+  // `worker` must outlive the connection.
+  Connection(Worker& worker, Accepted accepted);
+
+  void start();
+  // Answers 503, then closes.
+  void reject();
+  // The time of its phase is over.
+  void expire();
+  // Bytes have arrived that were not received yet.
+  bool has_bytes() const;
+  void close();
+
+ private:
+  void await_bytes();
+  void receive();
+  void discard(std::size_t bytes);
+  void serve();
+  void await_request();
+
+  void answer();
+  void answer_later();
+  void refuse(PreparedAnswer answer);
+  void respond(Answer answer);
+
+  void send();
+  bool send_some();
+  void await_room();
+  void add_hot_frames();
+  void read_ahead();
+  void add_frames(Result<std::vector<Frame>> frames);
+  void end_response();
+  void linger();
+  void report(bool aborted) const;
+
+  Worker& worker_;
+  Shared& shared_;
+  Socket socket_;
+  const std::string peer_;
+  const Admission::Ticket ticket_;
+  RequestReader reader_;
+  Incoming incoming_;  // the request that is being answered
+  Outgoing outgoing_;
+  Clock::time_point begun_;          // when the request was complete
+  std::size_t sent_bytes_ = 0;       // of a response, since its deadline was set
+  std::size_t discarded_bytes_ = 0;  // after the last response
+  bool awaiting_bytes_ = false;      // from the client
+  bool awaiting_room_ = false;       // in the socket's buffer
+  bool reading_ = false;             // frames, from the disk
+  bool in_request_ = false;          // some bytes of the next request are there
+  bool responding_ = false;          // from a whole request to the end of its response
+  bool keep_alive_ = false;          // after this response
+  bool broken_ = false;              // the rest of the body cannot be read
+  bool closed_ = false;
+};
+
+}  // namespace milepost::server

@@ -1,0 +1,24 @@
+#include "server/listen/accepted.h"
+
+#include <unistd.h>
+
+#include <utility>
+
+namespace milepost::server {
+
+Accepted::Accepted(int descriptor, int of_family, Peer from, Admission::Ticket place)
+    : family(of_family), peer(std::move(from)), ticket(std::move(place)), descriptor_(descriptor) {}
+
+Accepted::Accepted(Accepted&& other) noexcept
+    : family(other.family),
+      peer(std::move(other.peer)),
+      ticket(std::move(other.ticket)),
+      descriptor_(other.release()) {}
+
+Accepted::~Accepted() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+int Accepted::release() { return std::exchange(descriptor_, -1); }
+
+}  // namespace milepost::server
