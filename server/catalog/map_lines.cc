@@ -1,5 +1,6 @@
 #include "server/catalog/map_lines.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace milepost::server {
@@ -40,6 +41,10 @@ MapLines::MapLines(std::vector<SegmentLine> lines)
     : lines_(std::move(lines)), tree_(boxes_of(lines_)), bounds_(joined(boxes_of(lines_))) {
   for (const SegmentLine& line : lines_)
     memory_bytes_ += sizeof(SegmentLine) + kBytesOfAVertex * line.line.line.vertices().size();
+}
+
+const RouteLine& MapLines::line(const std::string& segment) const {
+  return std::ranges::lower_bound(lines_, segment, {}, &SegmentLine::segment)->line.line;
 }
 
 std::vector<NearLine> MapLines::near(const GeoPoint& position, double radius_m) const {

@@ -25,10 +25,13 @@ struct NearLine {
 // Immutable, so safe to share between threads.
 class MapLines {
  public:
+  // REQUIRES: ascending by the segments' ids.
   explicit MapLines(std::vector<SegmentLine> lines);
 
   // The segments that pass within the radius, in the order of their ids.
   std::vector<NearLine> near(const GeoPoint& position, double radius_m) const;
+  // REQUIRES: the map has the segment.
+  const RouteLine& line(const std::string& segment) const;
   // Around all lines; may cross longitude 180. Nothing if there are none.
   const std::optional<Bounds>& bounds() const { return bounds_; }
   std::uint64_t memory_bytes() const { return memory_bytes_; }  // about

@@ -19,9 +19,7 @@ Result<Frame> hot_or_stored_frame(const Response& response, std::size_t index, H
   if (Frame hot = memory.find(digest)) return hot;
   Result<Bytes> stored = stored_frame(response, index);
   if (!stored) return stored.error();
-  auto frame = std::make_shared<const Bytes>(std::move(stored).value());
-  memory.add(digest, frame);
-  return Frame(std::move(frame));
+  return memory.add(digest, std::make_shared<const Bytes>(std::move(stored).value()));
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ void Listener::close() {
       door->acceptor.release();
     }
     doors_.clear();
+    closed_ = true;
     closed.set_value();
   });
   closed.get_future().wait();
@@ -60,7 +61,7 @@ void Listener::close() {
 
 void Listener::await(Door& door) {
   door.acceptor.async_wait(Acceptor::wait_read, [this, &door](const error_code& error) {
-    if (!error) accept(door);
+    if (!error && !closed_) accept(door);
   });
 }
 
@@ -79,7 +80,7 @@ void Listener::accept(Door& door) {
 void Listener::pause(Door& door, std::chrono::milliseconds duration) {
   door.pause.expires_after(duration);
   door.pause.async_wait([this, &door](const error_code& ended) {
-    if (!ended) accept(door);
+    if (!ended && !closed_) accept(door);
   });
 }
 

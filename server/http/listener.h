@@ -44,6 +44,7 @@ class Listener {
   Shared& shared_;
   const std::vector<std::unique_ptr<Worker>>& workers_;
   std::vector<std::unique_ptr<Door>> doors_;
+  bool closed_ = false;  // handlers that are still to come do nothing
   std::size_t next_worker_ = 0;
   std::size_t rejected_ = 0;  // since the last warning
   Clock::time_point warned_;

@@ -70,6 +70,18 @@ TEST_F(HotTest, FramesAreReadOnceAndAheadWithinABound) {
   EXPECT_EQ(read_frames(range, 1, memory)->at(0), first->at(1));
 }
 
+TEST(HotFramesTest, WhatIsTooBigIsSharedWhileSomebodyHoldsIt) {
+  HotFrames memory(80'000);  // 10 kB in each part
+  const auto big = [] { return std::make_shared<const Bytes>(6000, std::uint8_t{1}); };
+  Frame first = memory.add("a", big());
+  EXPECT_EQ(memory.find("a"), first);
+  EXPECT_EQ(memory.add("a", big()), first);
+  first.reset();
+  EXPECT_EQ(memory.find("a"), nullptr);
+  for (int i = 0; i < 10'000; ++i) memory.add(std::to_string(i), big());
+  EXPECT_EQ(memory.find("9999"), nullptr);
+}
+
 TEST_F(HotTest, AnswersAreThoseOfOneCatalog) {
   HotAnswers answers(1'000'000);
   const auto tile = prepared(answer(tile_path(1)));

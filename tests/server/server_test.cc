@@ -364,6 +364,7 @@ TEST_F(ServerTest, HalfARequestIs408InTime) {
   connection.send("GET /healthz HTTP/1.1\r\nHo");
   const Reply reply = connection.receive();
   EXPECT_EQ(reply.status, 408);
+  EXPECT_THAT(reply.body, HasSubstr("\"title\":\"Request Timeout\",\"status\":408"));
   EXPECT_EQ(reply.header("content-type"), "application/problem+json");
   EXPECT_EQ(reply.header("connection"), "close");
   EXPECT_TRUE(reply.whole);
