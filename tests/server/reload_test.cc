@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "server/catalog/reloader.h"
-#include "server/http/body_reader.h"
+#include "server/hot/frames_of.h"
 #include "server/routes/handle.h"
 #include "tests/server/responses.h"
 #include "tests/server/test_map.h"
@@ -57,9 +57,9 @@ class ReloadTest : public ::testing::Test {
   std::string tile_of(const std::string& build) const {
     const Response response = get(tile_path(build));
     if (response.status != 200) return std::to_string(response.status);
-    BodyReader body(response, true);
-    const auto tile = body.next();
-    return tile ? std::string(as_text(*tile)) : tile.error().line();
+    HotFrames memory(1);  // none
+    const auto frames = read_frames(response, 0, memory);
+    return frames ? std::string(as_text(*frames->front())) : frames.error().line();
   }
   static std::string text(const Bytes& bytes) { return std::string(as_text(bytes)); }
   std::string readiness() const { return text_of(get("/readyz")); }

@@ -79,8 +79,8 @@ TEST_F(ServedSignatureTest, ADamagedOneIsAFailureOfTheServer) {
 TEST_F(ServedSignatureTest, IsNeitherAMapNorWarnedAbout) {
   put(signature_of("town", town_.build));
   std::vector<std::string> warnings;
-  const auto catalog =
-      Catalog::open(folder_.path(), 1, [&](const std::string& line) { warnings.push_back(line); });
+  const auto catalog = Catalog::open(folder_.path(), CatalogSettings(),
+                                     [&](const std::string& line) { warnings.push_back(line); });
   ASSERT_TRUE(catalog.ok());
   EXPECT_EQ((*catalog)->maps().size(), 1U);
   EXPECT_EQ((*catalog)->left_out(), 0U);
