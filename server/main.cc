@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   ignore_failures_of_the_log();
   const auto log = std::make_shared<server::LogWriter>(STDERR_FILENO);
   server::log_to(log, options.log);
-  const Status done = options.only_check ? server::check(options) : server::serve(options);
+  const Status done = options.only_check ? server::check(options) : server::serve(options, *log);
   if (!done) log->write("milepost-server: " + done.error().line() + '\n');
   log->close(kLastLines);
   return done ? 0 : 1;

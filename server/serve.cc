@@ -58,6 +58,16 @@ std::string counts(const Catalog& catalog) {
   return '(' + maps + ", " + std::to_string(catalog.left_out()) + " left out)";
 }
 
+void add_metrics(Metrics& metrics, const Reloader& reloader, const LogWriter& log) {
+  using Kind = Metrics::Kind;
+  metrics.add("milepost_reloads_total", "Looks at the directory that found a change.",
+              Kind::counter, [&] { return static_cast<double>(reloader.reloads()); });
+  metrics.add("milepost_reload_failures_total", "Looks at the directory that failed.",
+              Kind::counter, [&] { return static_cast<double>(reloader.failures()); });
+  metrics.add("milepost_log_lines_dropped_total", "Lines of the log that could not be written.",
+              Kind::counter, [&] { return static_cast<double>(log.dropped()); });
+}
+
 void tell_service_manager(const std::string& state) {
   const Status told = notify_service_manager(state);
   if (!told) spdlog::warn("{}", told.error().line());
@@ -82,7 +92,7 @@ Status check(const Options& options) {
                "see the list on standard output"};
 }
 
-Status serve(const Options& options) {
+Status serve(const Options& options, const LogWriter& log) {
   blocked({SIGHUP});  // from the start; SIGINT and SIGTERM may interrupt the opening of the maps
   const auto settings = server_settings(options);
   if (!settings) return settings.error();
@@ -96,6 +106,7 @@ Status serve(const Options& options) {
   for (const std::string& address : (*running)->addresses())
     std::cout << "listening on " << address << ' ' << counts(**opened) << std::endl;
   Reloader reloader(options.maps, catalog);
+  add_metrics((*running)->metrics(), reloader, log);
   tell_service_manager("READY=1");
   wait_for_stop(signals, reloader);
   tell_service_manager("STOPPING=1");

@@ -57,6 +57,11 @@ struct Server::Impl {
       workers.push_back(std::make_unique<Worker>(shared));
     }
     listener = std::make_unique<Listener>(std::move(sockets), shared, workers);
+    shared.metrics.add("milepost_connections", "Connections that are open.", Metrics::Kind::gauge,
+                       [this] { return static_cast<double>(shared.admission.count()); });
+    shared.metrics.add("milepost_connections_max", "Connections that may be open.",
+                       Metrics::Kind::gauge,
+                       [this] { return static_cast<double>(shared.limits.connections); });
   }
 
   void start() {
@@ -95,6 +100,8 @@ Server::~Server() { stop(); }
 const std::vector<std::string>& Server::addresses() const { return impl_->addresses; }
 
 const std::string& Server::address() const { return impl_->addresses.front(); }
+
+Metrics& Server::metrics() { return impl_->shared.metrics; }
 
 std::uint16_t Server::port() const { return impl_->port; }
 

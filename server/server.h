@@ -11,6 +11,7 @@
 #include "server/catalog/current_catalog.h"
 #include "server/http/settings.h"
 #include "server/listen/listen_address.h"
+#include "server/metrics/metrics.h"
 #include "server/viewer/viewer.h"
 
 namespace milepost::server {
@@ -37,6 +38,9 @@ class Server {
   ~Server();  // stop()
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
+
+  // To which the program may add what it knows itself, before the first scrape.
+  Metrics& metrics();
 
   // The addresses it listens on, with the actual ports: "127.0.0.1:8080", "unix:/path".
   const std::vector<std::string>& addresses() const;

@@ -16,18 +16,18 @@ namespace milepost::server {
 namespace {
 
 // Their answers are parts of the catalog, or constant.
-constexpr std::array<std::string_view, 4> kWithoutDisk = {"/healthz", "/readyz", "/openapi.yaml",
-                                                          "/v1/maps"};
+constexpr std::array<std::string_view, 5> kWithoutDisk = {"/healthz", "/readyz", "/metrics",
+                                                          "/openapi.yaml", "/v1/maps"};
 
 bool asks_for_content(const Request& request) {
   return request.method == "GET" || request.method == "HEAD";
 }
 
 // The answer without regard to If-None-Match.
-Response unconditional(const Request& request, const Catalog& catalog, const Viewer* viewer) {
+Response unconditional(const Request& request, const Catalog& catalog, const Shared& shared) {
   try {
     return handle({request.method, request.target, {}}, catalog,
-                  viewer == nullptr ? Viewer::plain() : *viewer);
+                  shared.viewer == nullptr ? Viewer::plain() : *shared.viewer, shared.metrics);
   } catch (const std::exception& failure) {
     spdlog::error("{} {}: {}", printable(request.method), printable(request.target),
                   failure.what());
@@ -41,7 +41,7 @@ PreparedAnswer hot_answer(const Request& request, Shared& shared) {
   PreparedAnswer hot = shared.answers.find(request.target, catalog);
   if (hot) return hot;
   if (std::ranges::find(kWithoutDisk, request.target) == kWithoutDisk.end()) return nullptr;
-  hot = prepared(unconditional(request, *catalog, shared.viewer.get()));
+  hot = prepared(unconditional(request, *catalog, shared));
   shared.answers.add(request.target, catalog, hot);
   return hot;
 }
@@ -69,7 +69,7 @@ Answer answer_from_memory(const Request& request, Shared& shared) {
 
 Answer answer_from_disk(const Request& request, Shared& shared) {
   const std::shared_ptr<const Catalog> catalog = shared.catalog->now();
-  const PreparedAnswer found = prepared(unconditional(request, *catalog, shared.viewer.get()));
+  const PreparedAnswer found = prepared(unconditional(request, *catalog, shared));
   if (asks_for_content(request)) shared.answers.add(request.target, catalog, found);
   const PreparedAnswer& chosen = unless_known(found, request.if_none_match);
   if (!has_frames(request, chosen->response)) return {chosen, {}};

@@ -305,7 +305,9 @@ void Connection::report(bool aborted) const {
   if (!outgoing_.begun()) return;
   const Response& response = outgoing_.response();
   observe({peer_, incoming_.request.method, incoming_.request.target, response.status,
-           response.content_length(), Clock::now() - begun_, aborted});
+           response.content_length(), Clock::now() - begun_, aborted, response.route, response.map,
+           frame_count(response)},
+          shared_.metrics);
 }
 
 }  // namespace milepost::server

@@ -6,7 +6,9 @@
 
 namespace milepost::server {
 
-void observe(const Exchange& exchange) {
+void observe(const Exchange& exchange, Metrics& metrics) {
+  metrics.count({exchange.route, exchange.map, exchange.status, exchange.body_bytes, exchange.tiles,
+                 exchange.took, exchange.aborted});
   if (!spdlog::should_log(spdlog::level::info)) return;
   spdlog::info("{} \"{} {}\" {} {} bytes {:.1f} ms{}", exchange.peer, printable(exchange.method),
                printable(exchange.target), exchange.status, exchange.body_bytes,

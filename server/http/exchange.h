@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "server/metrics/metrics.h"
+
 namespace milepost::server {
 
 struct Exchange {
@@ -15,10 +17,13 @@ struct Exchange {
   std::uint64_t body_bytes = 0;     // as stated, also to HEAD
   std::chrono::nanoseconds took{};  // from the whole request to the last byte handed to the system
   bool aborted = false;             // not all of the response was sent
+  std::string_view route = {};      // Response::route, of which this is
+  std::string_view map = {};        // the same
+  std::uint64_t tiles = 0;          // and cells in the body
 };
 
 // Every exchange comes here, on the thread of its connection: what counts or logs requests begins
-// here. Logs one line at level info.
-void observe(const Exchange& exchange);
+// here. Logs one line at level info, and counts.
+void observe(const Exchange& exchange, Metrics& metrics);
 
 }  // namespace milepost::server

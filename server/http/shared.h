@@ -10,6 +10,8 @@
 #include "server/http/disk_pool.h"
 #include "server/http/settings.h"
 #include "server/listen/admission.h"
+#include "server/metrics/metrics.h"
+#include "server/routes/handle.h"
 #include "server/viewer/viewer.h"
 
 namespace milepost::server {
@@ -29,6 +31,7 @@ struct Shared {
         disk(disk_threads, disk_queue) {}
 
   const std::shared_ptr<const CurrentCatalog> catalog;
+  Metrics metrics{path_patterns()};
   const std::shared_ptr<const Viewer> viewer;
   const ConnectionLimits limits;
   Admission admission;

@@ -33,6 +33,8 @@ Response unless_known(Response response, std::string_view if_none_match) {
   if (response.status != 200 || tag.empty() || !names_tag(if_none_match, tag)) return response;
   Response unchanged;
   unchanged.status = 304;
+  unchanged.route = response.route;
+  unchanged.map = response.map;
   unchanged.headers = {{"ETag", tag},
                        {"Cache-Control", std::string(response.header("Cache-Control"))}};
   return unchanged;

@@ -36,6 +36,8 @@ struct Response {
   unsigned status = 200;
   std::vector<std::pair<std::string, std::string>> headers;  // without Content-Length
   std::variant<SharedText, TileList, CellList> body;         // a null text is an empty body
+  std::string_view route;  // the pattern of handle.h that fitted; constant text. Empty: none
+  std::string map;         // that the path names, if it fitted
 
   // The value of a header, empty if absent. `name` is spelled as when it was added.
   std::string_view header(std::string_view name) const;

@@ -1,4 +1,5 @@
-// The arguments of a route: the catalog, the values in the path's braces, the query, the viewer.
+// The arguments of a route: the catalog, the values in the path's braces, the query, and what the
+// server shows of itself.
 #pragma once
 
 #include <string>
@@ -6,6 +7,7 @@
 
 #include "server/catalog/catalog.h"
 #include "server/message/target.h"
+#include "server/metrics/metrics.h"
 #include "server/viewer/viewer.h"
 
 namespace milepost::server {
@@ -15,6 +17,7 @@ struct Call {
   std::vector<std::string> path;  // the values of {braces}, in the pattern's order
   const Query& query;             // only parameters of the route, none repeated
   const Viewer& viewer;
+  const Metrics& metrics;
 };
 
 }  // namespace milepost::server

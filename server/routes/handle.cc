@@ -21,6 +21,7 @@ const std::vector<Route>& routes() {
   static const std::vector<Route> table = {
       {"/healthz", {}, answer_health},
       {"/readyz", {}, answer_ready},
+      {"/metrics", {}, answer_metrics},
       {"/openapi.yaml", {}, answer_openapi},
       {"/", {}, answer_page},
       {"/viewer/{release}/{file}", {}, answer_viewer_file},
@@ -85,7 +86,13 @@ Response answer(const Route& route, const Request& request, const Call& call) {
 
 }  // namespace
 
-Response handle(const Request& request, const Catalog& catalog, const Viewer& viewer) {
+const Metrics& no_metrics() {
+  static const Metrics none(path_patterns());
+  return none;
+}
+
+Response handle(const Request& request, const Catalog& catalog, const Viewer& viewer,
+                const Metrics& metrics) {
   if (request.target.size() > kMaxTargetBytes) {
     return problem(414, "the URL is longer than " + std::to_string(kMaxTargetBytes) +
                             " bytes; no URL of this server is");
@@ -95,7 +102,13 @@ Response handle(const Request& request, const Catalog& catalog, const Viewer& vi
   for (const Route& route : routes()) {
     std::optional<std::vector<std::string>> values = fit(route.pattern, target->path);
     if (!values) continue;
-    return answer(route, request, {catalog, std::move(*values), target->query, viewer});
+    const bool names_map = route.pattern.find("/maps/{map}") != std::string_view::npos;
+    std::string map = names_map ? values->front() : std::string();
+    Response response =
+        answer(route, request, {catalog, std::move(*values), target->query, viewer, metrics});
+    response.route = route.pattern;
+    response.map = std::move(map);
+    return response;
   }
   return problem(404, "there is nothing at this path; /openapi.yaml lists the paths");
 }

@@ -8,6 +8,7 @@ namespace milepost::server {
 
 Result<Response> answer_health(const Call& call);         // /healthz
 Result<Response> answer_ready(const Call& call);          // /readyz
+Result<Response> answer_metrics(const Call& call);        // /metrics
 Result<Response> answer_openapi(const Call& call);        // /openapi.yaml
 Result<Response> answer_page(const Call& call);           // /
 Result<Response> answer_viewer_file(const Call& call);    // /viewer/{release}/{file}

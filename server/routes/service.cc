@@ -23,6 +23,12 @@ Result<Response> answer_ready(const Call& call) {
   return response;
 }
 
+Result<Response> answer_metrics(const Call& call) {
+  Response response = plain_text(call.metrics.text(call.catalog));
+  response.headers.front().second = "text/plain; version=0.0.4; charset=utf-8";
+  return response;
+}
+
 Result<Response> answer_openapi(const Call&) {
   static const Document document = document_of(std::string(openapi_yaml()));
   return current_text(document, "application/yaml");

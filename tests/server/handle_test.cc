@@ -231,7 +231,7 @@ TEST_F(HandleTest, AbsentThingsAre404) {
   const std::string other(32, '0');
   for (const std::string& target :
        {std::string("/viewer"), std::string("/v1"), std::string("/v1/maps/"),
-        std::string("/nothing"), std::string("/metrics"), std::string("/v1/maps/nowhere"),
+        std::string("/nothing"), std::string("/v1/maps/nowhere"),
         "/v1/maps/nowhere/builds/" + other + "/segments/s1", build_path() + "/segments/s3",
         segment_path() + "/tiles/glance/0", segment_path() + "/tiles?layer=glance&from_m=0&to_m=1",
         segment_path() + "/tiles/tracklets/4", segment_path() + "/tiles/walls/0", build_path(),
