@@ -62,13 +62,13 @@ export class Network {
 
   // The segment, loaded if need be. `signal` is the search's: another one goes on with what is still wanted.
   async load(of, signal) {
-    const key = keyOf(of), known = this.segments.get(key);
+    const key = keyOf(of), known = this.segments.get(key), {needsMapping} = this.colouring;
     if (known) return known;
     const [document, map] = await Promise.all([documents.segmentDocument(of, signal), documents.mapDocument(of)]);
-    const record = this.colouring.needsMapping ? await documents.mapping(of) : null;
+    const record = needsMapping ? await documents.mapping(of) : null;
     const segment = {...of, key, document, mapDocument: map, line: lineOf(document), offset_deg: 0};
     segment.stretches = stretchesOf(document, map, record?.fits.get(of.segment) ?? []);
-    segment.hasRecord = this.colouring.needsMapping;
+    segment.hasRecord = Boolean(needsMapping);
     this.segments.set(key, segment);
     this.place(segment, this.map.getCenter().lng);
     this.draw(segment);
