@@ -21,6 +21,7 @@ import {segmentPanel, stretchText} from './segmentpanel.js';
 
 const CLICK_PX = 16;
 const SEARCH_RADIUS_M = 500;
+const TYPING_MS = 150;
 
 // How to bring bounds into view: beside the legend where that lies on the map.
 const fit = (maxZoom = 18.5) => {
@@ -84,7 +85,9 @@ async function showPanel({toTop = false} = {}) {
   const turn = ++panelTurn;
   const nodes = await panelNodes().catch((failure) => [h('p', {class: 'empty'}, failure.message)]);
   if (turn !== panelTurn) return;
+  const hadFocus = byId('content').contains(document.activeElement);
   byId('content').replaceChildren(...nodes);
+  if (hadFocus) (byId('content').querySelector('h2') ?? byId('content').querySelector('button'))?.focus();
   if (toTop) byId('panel').scrollTop = 0;
   const title = state.segment?.segment ?? state.map?.map;
   document.title = title ? `${title} – milepost maps` : 'milepost maps';
@@ -222,8 +225,10 @@ function catalogFailed(failure) {
 
 function listen() {
   const query = byId('query');
+  let typing = null;
   query.addEventListener('input', () => {
-    if (!positionIn(query.value)) chooseNothing();
+    clearTimeout(typing);
+    typing = setTimeout(() => { if (!positionIn(query.value)) chooseNothing(); }, TYPING_MS);
   });
   byId('search').addEventListener('submit', (event) => {
     event.preventDefault();

@@ -38,7 +38,7 @@ export function nearPanel(at, near, radius_m, choose, back) {
       h('span', {class: 'about'}, `${of.map}: ${withUnit(number(of.distance_m, 1), 'm')} away, at ${withUnit(number(of.along_m, 1), 'm')} of ${metres(of.length_m)}`));
     return h('li', {}, node);
   });
-  return [button('All maps', back, {class: 'back'}), h('h2', {}, 'Near ', h('span', {class: 'position'}, at)),
+  return [button('All maps', back, {class: 'back'}), h('h2', {tabindex: -1}, 'Near ', h('span', {class: 'position'}, at)),
     rows.length ? h('ul', {class: 'rows'}, ...rows) : h('p', {class: 'empty'}, `No segment passes within ${metres(radius_m)} of this position.`),
     near.length > rows.length ? h('p', {class: 'note'}, `${count(near.length - rows.length, 'more segment')}, farther away.`) : null].filter(Boolean);
 }
@@ -67,7 +67,7 @@ export function mapPanel(of, document, on) {
     on.record().then((of_) => record.replaceChildren(record.firstChild, ...recordPart(of_)),
       (failure) => record.replaceChildren(record.firstChild, h('p', {class: 'note'}, failure.message)));
   }, {once: true});
-  return [button('All maps', on.back, {class: 'back'}), h('h2', {}, of.map),
+  return [button('All maps', on.back, {class: 'back'}), h('h2', {tabindex: -1}, of.map),
     facts([segments.length ? ['length', metres(length_m)] : null, segments.length ? ['segments', number(segments.length)] : null, ['layers', layers.join(', ')],
       ['build', h('code', {title: of.build}, of.build.slice(0, 12))], datum ? ['datum', datum] : null]),
     segments.length ? record : null,

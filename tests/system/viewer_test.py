@@ -116,7 +116,7 @@ class ViewerPage:
         field = self.driver.find_element("id", "query")
         field.clear()
         field.send_keys(text, Keys.ENTER)
-        self.settle()
+        self.settle()  # longer than the page waits for the next key
 
     def picture(self):
         return Image.open(io.BytesIO(self.driver.get_screenshot_as_png())).convert("RGB")
@@ -297,9 +297,12 @@ class Viewer(CommandTest):
     def test_by_keys_alone(self):
         page = ViewerPage(self.driver, self.serve(self.maps).url)
         field = self.driver.find_element("id", "query")
-        field.send_keys("street", Keys.TAB)
+        field.send_keys("street")
+        page.until(lambda: page.ask("return document.querySelectorAll('.name').length") == 1, "the one map of this name")
+        field.send_keys(Keys.TAB)
         self.driver.switch_to.active_element.send_keys(Keys.ENTER)
         page.until(lambda: page.text("#content h2") == "street", "the panel of the map")
+        self.assertEqual(page.ask("return document.activeElement.innerText"), "street")
         page.settle()
         latitude = page.view()[1]
         self.driver.find_element("id", "map").send_keys(Keys.ARROW_UP)
