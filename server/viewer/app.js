@@ -3,6 +3,8 @@
 import * as address from './address.js';
 import {isAborted} from './api.js';
 import {Boxes, boundsOf} from './boxes.js';
+import {rememberBuild} from './builds.js';
+import {changesPart} from './changespanel.js';
 import {classOf, colouringOf} from './colourings.js';
 import * as documents from './documents.js';
 import {h, position} from './dom.js';
@@ -96,8 +98,13 @@ async function showPanel({toTop = false} = {}) {
 async function panelNodes() {
   if (state.segment) return segmentPanel(state.segment, state.colouring, onSegment);
   if (state.found) return nearPanel(state.found.text, state.found.near, SEARCH_RADIUS_M, chooseSegment, chooseNothing);
-  if (state.map) return mapPanel(state.map, await describe(state.map), onMap);
+  if (state.map) return mapPanelNodes(state.map);
   return catalogPanel(state.maps, positionIn(byId('query').value) ? '' : byId('query').value.trim(), chooseMap, describe);
+}
+
+async function mapPanelNodes(of) {
+  const [described, paths] = await Promise.all([describe(of), documents.paths().catch(() => new Set())]);
+  return mapPanel(of, described, paths.has('/v1/maps/{map}/changes') ? changesPart(of, onMap) : null, onMap);
 }
 
 const onSegment = {
@@ -118,6 +125,11 @@ const onMap = {
   back: chooseNothing,
   choose: (segment) => chooseSegment({...state.map, segment}),
   record: () => documents.mapping(state.map),
+  compare: async (from) => {
+    const of = state.map, changes = await documents.changes(of, from);
+    network.markChanged(of.map, changes.segments.map(({segment}) => segment));
+    return changes;
+  },
 };
 
 const mapNamed = (name) => state.maps.find((each) => each.map === name);
@@ -132,6 +144,7 @@ function clearSegment() {
 
 function chooseNothing() {
   Object.assign(state, {map: null, found: null});
+  network.markChanged(null, []);
   marker.remove();
   clearSegment();
 }
@@ -145,6 +158,8 @@ async function boundsOfMap(of) {
 
 async function chooseMap(of, {isFitted = true} = {}) {
   forgetNews();
+  rememberBuild(of);
+  if (state.map?.map !== of.map) network.markChanged(null, []);
   Object.assign(state, {map: of, found: null});
   clearSegment();
   if (!isFitted) return;

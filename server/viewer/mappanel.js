@@ -58,8 +58,8 @@ export function recordPart(record) {
   return [drives, h('h3', {}, findings.length ? count(findings.length, 'finding') : 'No findings'), ...(findings.length ? [h('ul', {class: 'findings'}, ...findings)] : [])];
 }
 
-// One map. `on`: {choose(segment id), back(), record() promises the record}.
-export function mapPanel(of, document, on) {
+// One map. `on`: {choose(segment id), back(), record() promises the record}; `more` is shown after the record.
+export function mapPanel(of, document, more, on) {
   const {segments, layers, length_m, datum} = document;
   const shown = segments.slice(0, MOST_SEGMENTS), rest = segments.length - shown.length;
   const record = h('details', {}, h('summary', {}, 'Record of the mapping'), h('p', {class: 'note'}, 'Reading…'));
@@ -70,7 +70,7 @@ export function mapPanel(of, document, on) {
   return [button('All maps', on.back, {class: 'back'}), h('h2', {tabindex: -1}, of.map),
     facts([segments.length ? ['length', metres(length_m)] : null, segments.length ? ['segments', number(segments.length)] : null, ['layers', layers.join(', ')],
       ['build', h('code', {title: of.build}, of.build.slice(0, 12))], datum ? ['datum', datum] : null]),
-    segments.length ? record : null,
+    segments.length ? record : null, more,
     segments.length ? h('h3', {}, 'Segments') : h('p', {class: 'empty'}, layers.includes('walls')
       ? 'The map has walls only, and no segments: a vehicle without a receiver finds itself by them.'
       : 'The map has no segments.'),
