@@ -52,7 +52,7 @@ Result<Response> answer_viewer_landmarks(const Call& call) {
   if (!tile) return tile.error();
   const Result<Bytes> frame = (*map)->tile(call.path[2], layers::kLandmarks, **tile);
   if (!frame) return frame.error();
-  return document_or(landmarks_document(*frame, *(*segment)->document.text));
+  return document_or(landmarks_document(*frame, (*segment)->line.line));
 }
 
 Result<Response> answer_viewer_walls(const Call& call) {

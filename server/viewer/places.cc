@@ -5,8 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "schema/base/json.h"
-#include "schema/geo/route_line.h"
+#include "schema/geo/geodesy.h"
 #include "schema/tile/codec.h"
 
 namespace milepost::server {
@@ -31,25 +30,12 @@ std::string items_document(const char* name, const std::vector<Item>& items, Row
   return Json{{"items", items.size()}, {name, std::move(rows)}}.dump();
 }
 
-// The line in a segment's document, whose build covers it: it has the form of PROTOCOL.md.
-Result<RouteLine> line_in(std::string_view segment_document) {
-  const Result<nlohmann::json> document = read_json(segment_document);
-  if (!document) return document.error();
-  std::vector<GeoPoint> points;
-  for (const nlohmann::json& vertex : document->at("line")) {
-    points.push_back({vertex.at(0), vertex.at(1), vertex.at(2)});
-  }
-  return RouteLine::from_vertices(std::move(points));
-}
-
 }  // namespace
 
-Result<std::string> landmarks_document(ByteView frame, std::string_view segment_document) {
+Result<std::string> landmarks_document(ByteView frame, const RouteLine& line) {
   const Result<LandmarkTile> tile = decode_landmarks(frame);
   if (!tile) return tile.error();
-  const Result<RouteLine> line = line_in(segment_document);
-  if (!line) return line.error();
-  const LocalFrame origin(line->point_at(tile->origin_m));
+  const LocalFrame origin(line.point_at(tile->origin_m));
   return items_document("landmarks", tile->landmarks, [&](const Landmark& landmark) -> Json {
     const GeoPoint position = origin.geo_from_enu(landmark.position);
     return {degrees(position.latitude_deg),
