@@ -222,11 +222,11 @@ async function readCatalog() {
   const builds = new Map(maps.map((of) => [of.map, of.build]));
   network.keepOnly(builds);
   boxes.keepOnly(builds);
-  const {map: before, segment} = state;
+  const before = state.segment ?? state.map;
   state.map = before && (mapNamed(before.map) ?? null);
-  if (segment && builds.get(segment.map) !== segment.build) {
+  if (before && builds.get(before.map) !== before.build) {
     clearSegment();
-    tellNews(builds.has(segment.map) ? `The map ${segment.map} was built anew.` : `The map ${segment.map} is no longer served.`);
+    tellNews(builds.has(before.map) ? `The map ${before.map} was built anew.` : `The map ${before.map} is no longer served.`);
   } else {
     showPanel();
   }

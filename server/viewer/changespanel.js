@@ -5,16 +5,16 @@ import {button, bytes, count, h, number} from './dom.js';
 
 const MOST_ROWS = 100;
 
-// "3 tiles changed, 1 removed, 210 kB"
-function tilesText(tiles = {}) {
-  const layers = Object.values(tiles), changed = layers.flatMap((layer) => layer.changed), removed = layers.flatMap((layer) => layer.removed);
+// "3 tiles new or changed, 210 kB, 1 tile removed"; `layers` are those of the tiles, or of the cells.
+function differences(layers = {}, one) {
+  const of = (key) => Object.values(layers).flatMap((layer) => layer[key]), changed = of('changed'), removed = of('removed');
   const sum = changed.reduce((total, tile) => total + tile.bytes, 0);
-  const parts = [changed.length ? `${count(changed.length, 'tile')} new or changed, ${bytes(sum)}` : '', removed.length ? `${count(removed.length, 'tile')} removed` : ''];
-  return parts.filter(Boolean).join(', ') || 'the same tiles';
+  const parts = [changed.length ? `${count(changed.length, one)} new or changed, ${bytes(sum)}` : '', removed.length ? `${count(removed.length, one)} removed` : ''];
+  return parts.filter(Boolean).join(', ') || `the same ${one}s`;
 }
 
 function row({segment, change, tiles}, choose) {
-  const texts = [h('span', {class: 'name'}, segment), h('span', {class: 'about'}, change === 'removed' ? change : `${change}: ${tilesText(tiles)}`)];
+  const texts = [h('span', {class: 'name'}, segment), h('span', {class: 'about'}, change === 'removed' ? change : `${change}: ${differences(tiles, 'tile')}`)];
   if (change === 'removed') return h('li', {class: 'row'}, ...texts);
   const node = button('', () => choose(segment), {class: 'row'});
   node.append(...texts);
@@ -22,10 +22,10 @@ function row({segment, change, tiles}, choose) {
 }
 
 function result(changes, choose) {
-  const {segments, areas} = changes, cells = Object.values(areas?.cells ?? {}).flatMap((layer) => layer.changed).length;
+  const {segments, areas} = changes;
   const rows = segments.slice(0, MOST_ROWS).map((each) => row(each, choose)), rest = segments.length - rows.length;
   const heading = segments.length || areas || changes.document ? `${count(segments.length, 'segment')} differ${segments.length === 1 ? 's' : ''}, ${bytes(changes.bytes)} to fetch` : 'The two builds hold the same.';
-  return [h('p', {class: 'sum'}, heading), areas ? h('p', {class: 'note'}, `${count(cells, 'cell')} of walls new or changed`) : null,
+  return [h('p', {class: 'sum'}, heading), areas ? h('p', {class: 'note'}, `Walls: ${differences(areas.cells, 'cell')}`) : null,
     h('ul', {class: 'rows'}, ...rows), rest ? h('p', {class: 'note'}, `${number(rest)} more`) : null].filter(Boolean);
 }
 

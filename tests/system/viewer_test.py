@@ -397,7 +397,7 @@ class Viewer(CommandTest):
         tile = {"index": 1, "bytes": 9570, "digest": "0" * 32}
         told = {"map": "street", "from": older, "to": about["build"], "bytes": 15136, "segments": [
             {"segment": name, "change": "changed", "bytes": 2783, "digest": "1" * 32, "tiles": {"tracklets": {"changed": [tile], "removed": [3, 4]}}},
-            {"segment": "side-0", "change": "removed"}], "areas": {"bytes": 12, "digest": "2" * 32, "cells": {"walls": {"changed": [], "removed": []}}}}
+            {"segment": "side-0", "change": "removed"}], "areas": {"bytes": 12, "digest": "2" * 32, "cells": {"walls": {"changed": [], "removed": [1, 2]}}}}
 
         def change(path, body):
             return body.replace("  /healthz:", "  /v1/maps/{map}/changes:\n  /healthz:") if path == "/openapi.yaml" else body
@@ -416,7 +416,7 @@ class Viewer(CommandTest):
         page.press("#changes [type=submit]")
         self.assertEqual(self.asked, f"/v1/maps/street/changes?from={older}")
         text = page.text("#changes")
-        for part in ("2 segments differ, 15.1 kB to fetch", "0 cells of walls new or changed", f"{name}\nchanged: 1 tile new or changed, 9.6 kB, 2 tiles removed",
+        for part in ("2 segments differ, 15.1 kB to fetch", "Walls: 2 cells removed", f"{name}\nchanged: 1 tile new or changed, 9.6 kB, 2 tiles removed",
                      "side-0\nremoved"):
             self.assertIn(part, text)
         self.assertGreater(page.count("m2", 110), before + 500)  # the segment is marked
