@@ -24,6 +24,7 @@ import {segmentPanel, stretchText} from './segmentpanel.js';
 const CLICK_PX = 16;
 const SEARCH_RADIUS_M = 500;
 const TYPING_MS = 150;
+const MOST_DESCRIBED = 24;  // maps whose documents are read at once: those of the list
 
 // How to bring bounds into view: beside the legend where that lies on the map.
 const fit = (maxZoom = 18.5) => {
@@ -231,6 +232,7 @@ async function readCatalog() {
     showPanel();
   }
   network.later();
+  Promise.all(maps.slice(0, MOST_DESCRIBED).map(describe)).then(() => places.refresh(), failed);
 }
 
 function catalogFailed(failure) {
@@ -276,7 +278,7 @@ async function showFirst() {
   if (of && start.segment) return chooseSegment({...of, segment: start.segment}, {isFitted: !start.view});
   if (of) return chooseMap(of, {isFitted: !start.view});
   if (start.view) return;
-  const found = await Promise.all(state.maps.slice(0, 24).map((each) => boundsOfMap(each).catch(() => null)));
+  const found = await Promise.all(state.maps.slice(0, MOST_DESCRIBED).map((each) => boundsOfMap(each).catch(() => null)));
   const all = found.filter(Boolean);
   if (all.length && !state.map) map.fitBounds(all.reduce((sum, bounds) => sum.extend(bounds), L.latLngBounds(all[0].getSouthWest(), all[0].getNorthEast())), fit());
 }

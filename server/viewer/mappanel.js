@@ -2,7 +2,7 @@
 
 import {button, count, facts, h, metres, number, withUnit} from './dom.js';
 
-const MOST_ROWS = 24;  // whose documents are read
+const MOST_ROWS = 24;  // whose documents are read, as at the start
 const MOST_SEGMENTS = 100;
 
 function row(of, choose, describe) {

@@ -326,6 +326,8 @@ class Viewer(CommandTest):
         page.click(*page.in_window(*self.vertex(segment, 27)))
         self.expect_segment(page, segment)
         self.assertLessEqual(page.ask("return document.documentElement.scrollWidth"), 390)
+        page.ask("window.scrollTo(0, 400)")
+        self.assertEqual(page.ask("return [window.scrollY, document.getElementById('map').getBoundingClientRect().top]"), [400, 0])
         self.expect_quiet(page)
 
     def test_a_map_of_walls_alone(self):
