@@ -392,6 +392,27 @@ class Viewer(CommandTest):
         page.until(lambda: page.text("#notice") == "The map street was built anew.", "a note of the other build")
         self.assertNotIn("segment=", page.driver.current_url)
 
+    def test_ten_thousand_maps(self):
+        server, read = self.serve(self.maps), []
+        _, about = self.street(server)
+        names = [f"m{number:04}" for number in range(10000)]
+
+        def answers(request):
+            name = request.path.removeprefix("/v1/maps/")
+            if name not in names:
+                return False
+            read.append(name)
+            self.answer(request, "application/json", json.dumps({**about, "name": name}).encode())
+            return True
+        listed = json.dumps({"maps": [{"name": name, "build": about["build"]} for name in names]})
+        page = ViewerPage(self.driver, self.changed(server, lambda path, body: listed if path == "/v1/maps" else body, answers))
+        self.assertIn("10\u202f000 maps", page.text("#content"))
+        self.assertIn("9976 more maps: write a part of the name above.", page.text("#content"))
+        self.assertEqual(sorted(read), names[:24])
+        page.search("m999")
+        self.assertEqual(page.ask("return [...document.querySelectorAll('.name')].map((node) => node.innerText)"), names[9990:])
+        self.assertEqual(sorted(read), names[:24] + names[9990:])
+
     def test_what_differs_from_an_older_build(self):
         server = self.serve(self.maps)
         segment, about = self.street(server)
