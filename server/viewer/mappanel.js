@@ -49,7 +49,7 @@ const FIT = [['frames', 'adjusted', (fit) => number(fit.frames)],
   ['moved, m', 'from the recorded to the adjusted poses, in plan', (fit) => number(fit.plan_rms_m, 3)]];
 
 // The record of the mapping; null for a map without one.
-export function recordPart(record) {
+function recordPart(record) {
   if (!record) return [h('p', {class: 'note'}, 'The map has no record of its mapping: build it anew to have one.')];
   const drives = h('table', {}, h('thead', {}, h('tr', {}, h('th', {scope: 'col'}, 'drive'), ...FIT.map(([name, title]) => h('th', {scope: 'col', title}, name)))),
     h('tbody', {}, ...record.drives.map((drive) => h('tr', {}, h('th', {scope: 'row'}, drive.drive), ...FIT.map(([, , value]) => h('td', {}, value(drive)))))));

@@ -20,7 +20,7 @@ function scaled(value, unit) {
 }
 
 // [name, what it is now, what it was in total] of a family; `before` is the one of `elapsed_s` earlier, or nothing.
-export function rowOf(name, family, before, elapsed_s) {
+function rowOf(name, family, before, elapsed_s) {
   const unit = unitOf(name);
   if (family.type === 'histogram') {
     const of = before && sumOf(family) > sumOf(before) ? before : null;  // without new events, since the start
