@@ -1,10 +1,10 @@
-// Requests to the server: few at a time, the latest failures told apart.
+// Requests to the server: few at a time, failures told apart.
 
 const MOST_AT_ONCE = 6;
 const WAIT_MS = 20_000;  // then the server counts as away
 
 // `status` is 0 if the server did not answer.
-export class Failure extends Error {
+class Failure extends Error {
   constructor(status, text) {
     super(text);
     this.status = status;

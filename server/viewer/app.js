@@ -1,25 +1,30 @@
 // The viewer: what is chosen, and what follows from it in the panel, on the map and in the address.
 
 import * as address from './address.js';
-import {isAborted, onRequests} from './api.js';
+import {isAborted} from './api.js';
 import {Boxes, boundsOf} from './boxes.js';
+import {rememberBuild} from './builds.js';
+import {changesPart} from './changespanel.js';
 import {classOf, colouringOf} from './colourings.js';
 import * as documents from './documents.js';
 import {h, position} from './dom.js';
-import {createMap} from './ground.js';
+import {follow} from './follow.js';
+import {colour, createMap} from './ground.js';
 import * as L from './leaflet.js';
-import {legend} from './legend.js';
+import {replaceLegend} from './legend.js';
 import {positionIn, wrappedLongitude} from './lines.js';
 import {catalogPanel, mapPanel, nearPanel} from './mappanel.js';
 import {metricsPanel} from './metricspanel.js';
 import {Network} from './network.js';
 import {forgetNews, tellNews, tellView} from './notices.js';
 import {Places} from './places.js';
+import {followPointer} from './readout.js';
 import {segmentPanel, stretchText} from './segmentpanel.js';
 
-const CATALOG_EVERY_MS = 30_000;
 const CLICK_PX = 16;
 const SEARCH_RADIUS_M = 500;
+const TYPING_MS = 150;
+const MOST_DESCRIBED = 24;  // maps whose documents are read at once: those of the list
 
 // How to bring bounds into view: beside the legend where that lies on the map.
 const fit = (maxZoom = 18.5) => {
@@ -31,7 +36,7 @@ const byId = (id) => document.getElementById(id);
 const setting = (name) => document.querySelector(`meta[name="${name}"]`).content;
 
 const start = address.read();
-const state = {maps: [], map: null, segment: null, found: null, colouring: colouringOf(start.colour), paths: new Set()};
+const state = {maps: [], map: null, segment: null, found: null, colouring: colouringOf(start.colour)};
 
 const map = createMap('map', {url: setting('tiles-url'), attribution: setting('tiles-attribution')});
 const boxes = new Boxes(map);
@@ -41,7 +46,7 @@ const marker = L.circleMarker([0, 0], {radius: 7, weight: 3, fillOpacity: 0.2, i
 
 function failed(failure) {
   if (isAborted(failure)) return;
-  if (failure.status === 410) readCatalog();
+  if (failure.status === 410) readCatalog().catch(catalogFailed);
   else if (failure.status !== 0) tellNews(failure.message);
 }
 
@@ -53,15 +58,13 @@ function networkChanged() {
 
 function showLegend() {
   const hasMissing = [...network.segments.values()].some(({stretches}) => stretches.some((stretch) => classOf(state.colouring, stretch) === null));
-  const before = document.activeElement?.closest('#legend') && [document.activeElement.name, document.activeElement.value, document.activeElement.id];
-  byId('legend').replaceChildren(...legend({colouring: state.colouring, hasMissing, wanted: places.wanted, atZoom: map.getZoom()}, {
+  replaceLegend(byId('legend'), {colouring: state.colouring, hasMissing, wanted: places.wanted, atZoom: map.getZoom()}, {
     choose: chooseColouring,
     want: (kind, isWanted) => {
       places.want(kind, isWanted);
       showLegend();
     },
-  }));
-  if (before) (before[0] ? document.querySelector(`#legend input[value="${before[1]}"]`) : byId(before[2]))?.focus();
+  });
 }
 
 async function chooseColouring(colouring) {
@@ -85,7 +88,9 @@ async function showPanel({toTop = false} = {}) {
   const turn = ++panelTurn;
   const nodes = await panelNodes().catch((failure) => [h('p', {class: 'empty'}, failure.message)]);
   if (turn !== panelTurn) return;
+  const hadFocus = byId('content').contains(document.activeElement);
   byId('content').replaceChildren(...nodes);
+  if (hadFocus) (byId('content').querySelector('h2') ?? byId('content').querySelector('button'))?.focus();
   if (toTop) byId('panel').scrollTop = 0;
   const title = state.segment?.segment ?? state.map?.map;
   document.title = title ? `${title} – milepost maps` : 'milepost maps';
@@ -94,11 +99,17 @@ async function showPanel({toTop = false} = {}) {
 async function panelNodes() {
   if (state.segment) return segmentPanel(state.segment, state.colouring, onSegment);
   if (state.found) return nearPanel(state.found.text, state.found.near, SEARCH_RADIUS_M, chooseSegment, chooseNothing);
-  if (state.map) return mapPanel(state.map, await describe(state.map), onMap);
+  if (state.map) return mapPanelNodes(state.map);
   return catalogPanel(state.maps, positionIn(byId('query').value) ? '' : byId('query').value.trim(), chooseMap, describe);
 }
 
+async function mapPanelNodes(of) {
+  const [described, paths] = await Promise.all([describe(of), documents.paths().catch(() => new Set())]);
+  return mapPanel(of, described, paths.has('/v1/maps/{map}/changes') ? changesPart(of, onMap) : null, onMap);
+}
+
 const onSegment = {
+  from: () => state.found ? `Near ${state.found.text}` : state.segment.map,
   back: () => (state.found ? clearSegment() : chooseMap(mapNamed(state.segment.map), {isFitted: false})),
   goTo: (from_m, to_m) => {
     map.fitBounds(network.boundsOf(state.segment, Math.max(from_m, 0), Math.min(to_m, state.segment.document.length_m)), fit(20));
@@ -115,11 +126,17 @@ const onMap = {
   back: chooseNothing,
   choose: (segment) => chooseSegment({...state.map, segment}),
   record: () => documents.mapping(state.map),
+  compare: async (from) => {
+    const of = state.map, changes = await documents.changes(of, from);
+    network.markChanged(of.map, changes.segments.map(({segment}) => segment));
+    return changes;
+  },
 };
 
 const mapNamed = (name) => state.maps.find((each) => each.map === name);
 
 function clearSegment() {
+  ++segmentTurn;
   state.segment = null;
   network.select(null);
   showPanel({toTop: true});
@@ -128,6 +145,7 @@ function clearSegment() {
 
 function chooseNothing() {
   Object.assign(state, {map: null, found: null});
+  network.markChanged(null, []);
   marker.remove();
   clearSegment();
 }
@@ -141,6 +159,8 @@ async function boundsOfMap(of) {
 
 async function chooseMap(of, {isFitted = true} = {}) {
   forgetNews();
+  rememberBuild(of);
+  if (state.map?.map !== of.map) network.markChanged(null, []);
   Object.assign(state, {map: of, found: null});
   clearSegment();
   if (!isFitted) return;
@@ -155,10 +175,13 @@ async function chooseMap(of, {isFitted = true} = {}) {
 // A segment that is aborted was wanted by a search that the view has left: it is asked for again.
 const loaded = (of) => network.load(of).catch((failure) => isAborted(failure) ? network.load(of) : Promise.reject(failure));
 
+let segmentTurn = 0;
 async function chooseSegment(of, {isFitted = true} = {}) {
+  const turn = ++segmentTurn;
   forgetNews();
   try {
     const segment = await loaded({map: of.map, build: of.build, segment: of.segment});
+    if (turn !== segmentTurn) return;  // another one was chosen meanwhile
     Object.assign(state, {segment, map: mapNamed(of.map)});
     network.place(segment, map.getCenter().lng);
     network.select(segment);
@@ -174,7 +197,7 @@ async function search(text) {
   const at = positionIn(text);
   if (!at) return;
   map.setView(at, Math.max(map.getZoom(), 18));
-  marker.setLatLng(at).setStyle({color: getComputedStyle(document.documentElement).getPropertyValue('--m1')}).addTo(map);
+  marker.setLatLng(at).setStyle({color: colour('m1')}).addTo(map);
   try {
     const near = await documents.segmentsNear(at, SEARCH_RADIUS_M);
     Object.assign(state, {found: {text: position(at.lat, at.lng), near}, map: null});
@@ -200,21 +223,29 @@ async function readCatalog() {
   const builds = new Map(maps.map((of) => [of.map, of.build]));
   network.keepOnly(builds);
   boxes.keepOnly(builds);
-  const {map: before, segment} = state;
+  const before = state.segment ?? state.map;
   state.map = before && (mapNamed(before.map) ?? null);
-  if (segment && builds.get(segment.map) !== segment.build) {
+  if (before && builds.get(before.map) !== before.build) {
     clearSegment();
-    tellNews(builds.has(segment.map) ? `The map ${segment.map} was built anew.` : `The map ${segment.map} is no longer served.`);
+    tellNews(builds.has(before.map) ? `The map ${before.map} was built anew.` : `The map ${before.map} is no longer served.`);
   } else {
     showPanel();
   }
   network.later();
+  Promise.all(maps.slice(0, MOST_DESCRIBED).map(describe)).then(() => places.refresh(), failed);
+}
+
+function catalogFailed(failure) {
+  failed(failure);
+  if (!byId('content').dataset.read) byId('content').replaceChildren(h('p', {class: 'empty'}, 'The catalog could not be read yet.'));
 }
 
 function listen() {
   const query = byId('query');
+  let typing = null;
   query.addEventListener('input', () => {
-    if (!positionIn(query.value)) chooseNothing();
+    clearTimeout(typing);
+    typing = setTimeout(() => { if (!positionIn(query.value)) chooseNothing(); }, TYPING_MS);
   });
   byId('search').addEventListener('submit', (event) => {
     event.preventDefault();
@@ -228,66 +259,33 @@ function listen() {
   });
   map.on('moveend', writeAddress);
   map.on('zoomend', showLegend);
-  map.on('mousemove', ({latlng}) => readout(latlng));
-  map.on('mouseout', () => { byId('readout').hidden = true; });
+  followPointer(map, byId('readout'), (latlng) => network.at(latlng, CLICK_PX), ({stretch}) => stretchText(state.colouring, stretch));
   document.addEventListener('keydown', (event) => {
-    if (event.key === 'Escape' && (state.segment || state.found || state.map)) onSegmentOrMapBack();
+    if (event.key === 'Escape') goBack();
   });
-  document.addEventListener('visibilitychange', () => { if (!document.hidden) follow(); });
 }
 
-function onSegmentOrMapBack() {
+function goBack() {
   if (state.segment) onSegment.back();
-  else chooseNothing();
+  else if (state.found || state.map) chooseNothing();
 }
-
-let pointed = null;
-function readout(latlng) {
-  const isFirst = pointed === null;
-  pointed = latlng;
-  if (isFirst) requestAnimationFrame(() => {
-    const hit = network.at(pointed, CLICK_PX), node = byId('readout');
-    node.replaceChildren(...(hit ? [h('strong', {}, hit.segment.segment), ` ${stretchText(state.colouring, hit.stretch)}`]
-      : [position(pointed.lat, wrappedLongitude(pointed.lng))]));
-    node.hidden = false;
-    map.getContainer().classList.toggle('over-road', Boolean(hit));
-    pointed = null;
-  });
-}
-
-// Follows the catalog while the page is visible; a server that is away is asked again.
-let following = null;
-async function follow() {
-  clearTimeout(following);
-  if (!document.hidden) await readCatalog().catch(failed);
-  following = setTimeout(follow, byId('away').hidden ? CATALOG_EVERY_MS : CATALOG_EVERY_MS / 6);
-}
-
-onRequests((running, isAnswered) => {
-  byId('map').setAttribute('aria-busy', String(running > 0));
-  if (isAnswered === undefined) return;
-  const wasAway = !byId('away').hidden;
-  byId('away').hidden = isAnswered;
-  byId('away').textContent = isAnswered ? '' : 'The server does not answer. What is shown may be old; the page asks again every five seconds.';
-  if (!isAnswered && !byId('content').dataset.read) byId('content').replaceChildren();
-  if (wasAway && isAnswered) network.later();
-});
 
 // The first view is the address's, or the map's that it names, or that of all maps.
 async function showFirst() {
   const of = start.map && mapNamed(start.map);
   if (start.view) map.setView(start.view, start.view.zoom);
+  if (start.map && !of) tellNews(`The server has no map ${start.map}.`);
   if (of && start.segment) return chooseSegment({...of, segment: start.segment}, {isFitted: !start.view});
   if (of) return chooseMap(of, {isFitted: !start.view});
   if (start.view) return;
-  const found = await Promise.all(state.maps.slice(0, 24).map((each) => boundsOfMap(each).catch(() => null)));
+  const found = await Promise.all(state.maps.slice(0, MOST_DESCRIBED).map((each) => boundsOfMap(each).catch(() => null)));
   const all = found.filter(Boolean);
   if (all.length && !state.map) map.fitBounds(all.reduce((sum, bounds) => sum.extend(bounds), L.latLngBounds(all[0].getSouthWest(), all[0].getNorthEast())), fit());
 }
 
 listen();
 showLegend();
-await follow();
+await follow(() => readCatalog().catch(catalogFailed), {map: byId('map'), away: byId('away'), back: () => network.later()});
 await showFirst();
 writeAddress();
 documents.paths().then((paths) => {

@@ -38,5 +38,8 @@ export const walls = (of, cell) => wallTiles(keyOf(of.map, of.build, cell), of, 
 export const segmentsNear = ({lat, lng}, radius_m, signal) =>
   getJson(`/v1/segments?near=${lat},${lng}&radius_m=${radius_m}`, {signal}).then(({segments}) => segments);
 
+// What differs between an older build of a map and its current one.
+export const changes = ({map}, from) => getJson(`/v1/maps/${map}/changes?from=${encodeURIComponent(from)}`);
+
 // The paths that this server answers, so that nothing is asked of it that it does not have.
-export const paths = () => getText('/openapi.yaml').then((text) => new Set([...text.matchAll(/^ {2}(\/\S*):$/gm)].map(([, path]) => path)));
+export const paths = remembered(() => getText('/openapi.yaml').then((text) => new Set([...text.matchAll(/^ {2}(\/\S*):$/gm)].map(([, path]) => path))), 1);

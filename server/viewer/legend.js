@@ -24,7 +24,7 @@ function kind({id, name, zoom}, {wanted, atZoom, want}) {
 }
 
 // `state`: {colouring, hasMissing, wanted, atZoom}; `on`: {choose(colouring), want(kind, isWanted)}.
-export function legend(state, on) {
+function parts(state, on) {
   const far = KINDS.filter(({id, zoom}) => state.wanted.has(id) && state.atZoom < zoom).map(({name}) => name);
   const hint = far.length ? `zoom in for ${far.join(', ').replace(/, (?=[^,]*$)/, ' and ')}` : 'drawn where a map has them';
   return [
@@ -32,4 +32,12 @@ export function legend(state, on) {
     h('h2', {}, state.colouring.heading), bar(state.colouring, state.hasMissing),
     h('div', {class: 'kinds'}, ...KINDS.map((each) => kind(each, {...state, want: on.want})), h('span', {class: 'hint'}, hint)),
   ];
+}
+
+// Draws the legend anew; what had the focus in it has it again.
+export function replaceLegend(node, state, on) {
+  const {id, value} = node.contains(document.activeElement) ? document.activeElement : {};
+  node.replaceChildren(...parts(state, on));
+  const again = id ? document.getElementById(id) : value && node.querySelector(`[value="${value}"]`);
+  again?.focus();
 }

@@ -2,7 +2,7 @@
 
 import {button, count, facts, h, metres, number, withUnit} from './dom.js';
 
-const MOST_ROWS = 24;  // whose documents are read
+const MOST_ROWS = 24;  // whose documents are read, as at the start
 const MOST_SEGMENTS = 100;
 
 function row(of, choose, describe) {
@@ -38,7 +38,7 @@ export function nearPanel(at, near, radius_m, choose, back) {
       h('span', {class: 'about'}, `${of.map}: ${withUnit(number(of.distance_m, 1), 'm')} away, at ${withUnit(number(of.along_m, 1), 'm')} of ${metres(of.length_m)}`));
     return h('li', {}, node);
   });
-  return [button('All maps', back, {class: 'back'}), h('h2', {}, 'Near ', h('span', {class: 'position'}, at)),
+  return [button('All maps', back, {class: 'back'}), h('h2', {tabindex: -1}, 'Near ', h('span', {class: 'position'}, at)),
     rows.length ? h('ul', {class: 'rows'}, ...rows) : h('p', {class: 'empty'}, `No segment passes within ${metres(radius_m)} of this position.`),
     near.length > rows.length ? h('p', {class: 'note'}, `${count(near.length - rows.length, 'more segment')}, farther away.`) : null].filter(Boolean);
 }
@@ -49,7 +49,7 @@ const FIT = [['frames', 'adjusted', (fit) => number(fit.frames)],
   ['moved, m', 'from the recorded to the adjusted poses, in plan', (fit) => number(fit.plan_rms_m, 3)]];
 
 // The record of the mapping; null for a map without one.
-export function recordPart(record) {
+function recordPart(record) {
   if (!record) return [h('p', {class: 'note'}, 'The map has no record of its mapping: build it anew to have one.')];
   const drives = h('table', {}, h('thead', {}, h('tr', {}, h('th', {scope: 'col'}, 'drive'), ...FIT.map(([name, title]) => h('th', {scope: 'col', title}, name)))),
     h('tbody', {}, ...record.drives.map((drive) => h('tr', {}, h('th', {scope: 'row'}, drive.drive), ...FIT.map(([, , value]) => h('td', {}, value(drive)))))));
@@ -58,8 +58,8 @@ export function recordPart(record) {
   return [drives, h('h3', {}, findings.length ? count(findings.length, 'finding') : 'No findings'), ...(findings.length ? [h('ul', {class: 'findings'}, ...findings)] : [])];
 }
 
-// One map. `on`: {choose(segment id), back(), record() promises the record}.
-export function mapPanel(of, document, on) {
+// One map. `on`: {choose(segment id), back(), record() promises the record}; `more` is shown after the record.
+export function mapPanel(of, document, more, on) {
   const {segments, layers, length_m, datum} = document;
   const shown = segments.slice(0, MOST_SEGMENTS), rest = segments.length - shown.length;
   const record = h('details', {}, h('summary', {}, 'Record of the mapping'), h('p', {class: 'note'}, 'Reading…'));
@@ -67,10 +67,10 @@ export function mapPanel(of, document, on) {
     on.record().then((of_) => record.replaceChildren(record.firstChild, ...recordPart(of_)),
       (failure) => record.replaceChildren(record.firstChild, h('p', {class: 'note'}, failure.message)));
   }, {once: true});
-  return [button('All maps', on.back, {class: 'back'}), h('h2', {}, of.map),
+  return [button('All maps', on.back, {class: 'back'}), h('h2', {tabindex: -1}, of.map),
     facts([segments.length ? ['length', metres(length_m)] : null, segments.length ? ['segments', number(segments.length)] : null, ['layers', layers.join(', ')],
       ['build', h('code', {title: of.build}, of.build.slice(0, 12))], datum ? ['datum', datum] : null]),
-    segments.length ? record : null,
+    segments.length ? record : null, more,
     segments.length ? h('h3', {}, 'Segments') : h('p', {class: 'empty'}, layers.includes('walls')
       ? 'The map has walls only, and no segments: a vehicle without a receiver finds itself by them.'
       : 'The map has no segments.'),

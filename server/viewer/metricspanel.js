@@ -7,7 +7,7 @@ import {familiesOf, quantile, sumOf} from './prometheus.js';
 const EVERY_MS = 5000;
 
 // "milepost_http_requests_total" -> "http requests"
-const words = (name) => name.replace(/^milepost_/, '').replace(/_(total|seconds|bytes|bytes_total)$/, '').replaceAll('_', ' ');
+const words = (name) => name.replace(/^milepost_/, '').replace(/(_seconds)?(_total)?$/, '').replaceAll('_', ' ');
 
 const unitOf = (name) => /_seconds(_total)?$/.test(name) ? 's' : /_bytes(_total)?$/.test(name) ? 'B' : '';
 
@@ -20,17 +20,17 @@ function scaled(value, unit) {
 }
 
 // [name, what it is now, what it was in total] of a family; `before` is the one of `elapsed_s` earlier, or nothing.
-export function rowOf(name, family, before, elapsed_s) {
+function rowOf(name, family, before, elapsed_s) {
   const unit = unitOf(name);
   if (family.type === 'histogram') {
     const of = before && sumOf(family) > sumOf(before) ? before : null;  // without new events, since the start
     const [half, most] = [0.5, 0.99].map((share) => scaled(quantile(family, of, share), unit));
-    return [words(name), `${half} median, ${most} p99`, `${scaled(sumOf(family), '')} in all`];
+    return [words(name), `${half} median, ${most} p99`, `${scaled(sumOf(family), '')}`];
   }
   const value = sumOf(family);
   if (family.type !== 'counter') return [words(name), scaled(value, unit), ''];
   const rate = before ? Math.max(0, value - sumOf(before)) / elapsed_s : null;
-  return [words(name), rate === null ? '–' : `${scaled(rate, unit)}/s`, `${scaled(value, unit)} in all`];
+  return [words(name), rate === null ? '–' : `${scaled(rate, unit)}/s`, `${scaled(value, unit)}`];
 }
 
 function table(families, before, elapsed_s) {

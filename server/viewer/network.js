@@ -24,10 +24,10 @@ export class Network {
   // `on` has functions: changed() after the drawn segments changed, told({total, shown, isTooWide}) after each search,
   // failed(failure).
   constructor(map, colouring, on) {
-    Object.assign(this, {map, colouring, on, segments: new Map(), chosen: null, chosenLayers: [], marked: null, search: null, timer: null, width_px: widthAt(map.getZoom())});
-    for (const [pane, zIndex] of [['selected', 410], ['casing', 420], ['lines', 430], ['marks', 440]]) {
+    Object.assign(this, {map, colouring, on, panes: {}, segments: new Map(), changed: {map: null, ids: new Set()}, chosen: null, chosenLayers: [], marked: null, search: null, timer: null, width_px: widthAt(map.getZoom())});
+    for (const [pane, zIndex] of [['changed', 408], ['selected', 410], ['casing', 420], ['lines', 430], ['marks', 440]]) {
       map.createPane(pane).style.zIndex = zIndex;
-      this[pane] = {group: L.layerGroup().addTo(map), renderer: L.canvas({pane, padding: 0.3})};
+      this.panes[pane] = {group: L.layerGroup().addTo(map), renderer: L.canvas({pane, padding: 0.3})};
     }
     this.layers = new Map();
     map.on('moveend', () => this.later());
@@ -62,13 +62,13 @@ export class Network {
 
   // The segment, loaded if need be. `signal` is the search's: another one goes on with what is still wanted.
   async load(of, signal) {
-    const key = keyOf(of), known = this.segments.get(key);
+    const key = keyOf(of), known = this.segments.get(key), {needsMapping} = this.colouring;
     if (known) return known;
     const [document, map] = await Promise.all([documents.segmentDocument(of, signal), documents.mapDocument(of)]);
-    const record = this.colouring.needsMapping ? await documents.mapping(of) : null;
+    const record = needsMapping ? await documents.mapping(of) : null;
     const segment = {...of, key, document, mapDocument: map, line: lineOf(document), offset_deg: 0};
     segment.stretches = stretchesOf(document, map, record?.fits.get(of.segment) ?? []);
-    segment.hasRecord = this.colouring.needsMapping;
+    segment.hasRecord = Boolean(needsMapping);
     this.segments.set(key, segment);
     this.place(segment, this.map.getCenter().lng);
     this.draw(segment);
@@ -122,6 +122,14 @@ export class Network {
     this.on.changed();
   }
 
+  // Marks the segments of a map with these ids as changed.
+  markChanged(map, ids) {
+    if (ids.length || this.changed.ids.size) {
+      this.changed = {map, ids: new Set(ids)};
+      this.redraw();
+    }
+  }
+
   latLngs(segment, from_m, to_m) {
     return partOf(segment.line, from_m, to_m).map(({lat, lng}) => [lat, lng + segment.offset_deg]);
   }
@@ -130,7 +138,10 @@ export class Network {
     for (const layer of this.layers.get(segment.key) ?? []) layer.remove();
     const weight = this.width_px, layers = [];
     const add = (pane, latLngs, options) =>
-      layers.push(L.polyline(latLngs, {renderer: this[pane].renderer, interactive: false, lineCap: 'butt', ...options}).addTo(this[pane].group));
+      layers.push(L.polyline(latLngs, {renderer: this.panes[pane].renderer, interactive: false, lineCap: 'butt', ...options}).addTo(this.panes[pane].group));
+    if (this.changed.map === segment.map && this.changed.ids.has(segment.segment)) {
+      add('changed', this.latLngs(segment, 0, segment.document.length_m), {color: colour('m2'), weight: weight + 14, opacity: 0.6, lineCap: 'round'});
+    }
     add('casing', this.latLngs(segment, 0, segment.document.length_m), {color: colour('page'), weight: weight + 2.5, lineCap: 'round'});
     for (const run of runsOf(this.colouring, segment.stretches)) {
       add('lines', this.latLngs(segment, run.from_m, run.to_m), {color: colour(colourName(this.colouring, run.class)), weight});
@@ -163,13 +174,13 @@ export class Network {
     if (!segment) return;
     const ink = colour('ink'), page = colour('page'), weight = this.width_px, {length_m} = segment.document;
     const line = (pane, latLngs, options) => this.chosenLayers.push(
-      L.polyline(latLngs, {renderer: this[pane].renderer, interactive: false, color: ink, ...options}).addTo(this[pane].group));
+      L.polyline(latLngs, {renderer: this.panes[pane].renderer, interactive: false, color: ink, ...options}).addTo(this.panes[pane].group));
     line('selected', this.latLngs(segment, 0, length_m), {weight: weight + 8});
     if (this.marked) line('marks', this.latLngs(segment, ...this.marked), {weight: Math.max(2, weight / 2), lineCap: 'butt'});
     const dot = (along_m, options) => {
       const {lat, lng} = pointAt(segment.line, along_m);
       this.chosenLayers.push(L.circleMarker([lat, lng + segment.offset_deg],
-        {renderer: this.marks.renderer, interactive: false, color: ink, fillOpacity: 1, weight: 2, ...options}).addTo(this.marks.group));
+        {renderer: this.panes.marks.renderer, interactive: false, color: ink, fillOpacity: 1, weight: 2, ...options}).addTo(this.panes.marks.group));
     };
     dot(0, {radius: weight / 2 + 3, fillColor: page});
     dot(length_m, {radius: weight / 2 + 3, fillColor: ink});

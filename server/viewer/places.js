@@ -17,6 +17,7 @@ const MOST_TILES = 40;  // of landmarks, in one view
 const MOST_CELLS = 40;
 const MOST_MARKS = 150;
 const HALF_MARK_M = 2.5;
+const NUMBERS_ZOOM = 18;  // from here on the begins of tiles have numbers
 
 const radiusAt = (zoom) => zoom < 19 ? 1.6 : zoom < 20 ? 2.4 : 3.2;
 
@@ -76,26 +77,27 @@ export class Places {
 
   // The begin of each tile of landmarks in view.
   tileBegins() {
-    const bounds = this.map.getBounds(), marks = [];
+    const bounds = this.map.getBounds(), isNumbered = this.map.getZoom() >= NUMBERS_ZOOM, marks = [];
     for (const segment of this.network.inView()) {
       const length_m = segment.mapDocument.layer_parameters[LANDMARKS]?.tile_length_m;
       for (const tile of length_m ? segment.document.tiles[LANDMARKS] ?? [] : []) {
         const along_m = tile.index * length_m, {lat, lng} = pointAt(segment.line, along_m);
         if (along_m < segment.document.length_m && bounds.contains([lat, lng + segment.offset_deg])) {
-          marks.push({key: `${segment.key}/${tile.index}@${segment.offset_deg}`, segment, tile, along_m});
+          marks.push({key: `${segment.key}/${tile.index}@${segment.offset_deg}/${isNumbered}`, segment, tile, along_m, isNumbered});
         }
       }
     }
     return marks.slice(0, MOST_MARKS);
   }
 
-  drawTile({segment, tile, along_m}) {
+  drawTile({segment, tile, along_m, isNumbered}) {
     const {group, renderer} = this.groups.tiles;
     const end = (right_m) => {
       const {lat, lng} = besides(segment.line, along_m, right_m);
       return [lat, lng + segment.offset_deg];
     };
     L.polyline([end(-HALF_MARK_M), end(HALF_MARK_M)], {renderer, color: colour('ink'), weight: 1.5, interactive: false}).addTo(group);
+    if (!isNumbered) return;
     const icon = L.divIcon({className: 'tile-label', iconSize: null, html: h('span', {}, String(tile.index))});
     L.marker(end(HALF_MARK_M), {icon, interactive: false, keyboard: false, pane: 'tiles'}).addTo(group);
   }

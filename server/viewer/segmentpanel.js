@@ -59,10 +59,10 @@ function sigmaText({position_sigma_m: sigma_m, assumed}) {
 
 const list = (heading, items) => items.length ? [h('h3', {}, heading), h('ul', {class: 'plain'}, ...items.map((item) => h('li', {}, item)))] : [];
 
-// `on`: {back(), goTo(from_m, to_m), mark(range or null), choose({map, segment})}.
+// `on`: {back(), from() its name, goTo(from_m, to_m), mark(range or null), choose({map, segment})}.
 export function segmentPanel(segment, colouring, on) {
   const {document} = segment, {length_m, passes, successors} = document, sums = totals(document), landmarks = totals(document, LANDMARKS);
-  return [button(segment.map, on.back, {class: 'back'}), h('h2', {}, document.segment),
+  return [button(on.from(), on.back, {class: 'back'}), h('h2', {tabindex: -1}, document.segment),
     facts([['length', metres(length_m)], ['passes', number(passes.length)],
       ['landmarks', landmarks.tiles ? `${number(landmarks.items)}, ${withUnit(number(landmarks.items / length_m, 1), 'a metre')}` : 'none'],
       ['size', `${bytes(sums.bytes)}, ${withUnit(number(sums.bytes / 1000 / length_m, 2), 'kB/m')}`],

@@ -47,7 +47,7 @@ class SeedFolder {
 
 void write_targets(const SeedFolder& seeds) {
   const server::TemporaryFolder folder;
-  const std::string build = server::write_town(folder.path() / "town.map").build;
+  const std::string build = server::write_lane(folder.path() / "town.map").build;
   const std::string root = "/v1/maps/town/builds/" + build;
   int number = 0;
   for (const std::string& target :
@@ -55,7 +55,9 @@ void write_targets(const SeedFolder& seeds) {
         std::string("/v1/maps"), std::string("/v1/maps/town"),
         std::string("/v1/segments?near=49.0001,8.0001&radius_m=50"), root + "/segments/s1",
         root + "/segments/s1/tiles?layer=tracklets&from_m=10&to_m=120",
-        root + "/segments/s1/tiles/tracklets/2", root + "/areas", root + "/manifest", root + "/map",
+        root + "/segments/s1/tiles/tracklets/0", root + "/areas", root + "/manifest", root + "/map",
+        root + "/mapping", "/viewer" + root.substr(3) + "/segments/s1/landmarks/0",
+        "/viewer" + root.substr(3) + "/walls/" + std::to_string(server::kTownCells[0]),
         root + "/areas/walls?bbox=8,49,8.01,49.01",
         root + "/areas/walls/" + std::to_string(server::kTownCells[0]),
         std::string("http://host/v1/maps?%61=%20+")}) {
