@@ -28,7 +28,7 @@ void HotAnswers::add(std::string_view target, const std::shared_ptr<const Catalo
   if (shard.catalog == catalog) shard.answers.add(target, answer, answer->bytes());
 }
 
-// Answers of another catalog keep its maps open, so that they leave all shards at once.
+// Answers of another catalog keep its documents, so that they leave all shards at once.
 void HotAnswers::keep_only(const std::shared_ptr<const Catalog>& catalog) {
   for (const auto& shard : shards_) {
     const std::lock_guard lock(shard->mutex);

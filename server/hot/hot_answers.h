@@ -14,7 +14,8 @@
 namespace milepost::server {
 
 // Answers of one catalog to GET without conditions; a request with another catalog empties the
-// memory. Safe to use from several threads at once.
+// memory. An answer keeps no map in memory (Prepared::map). Safe to use from several threads at
+// once.
 class HotAnswers {
  public:
   // `bytes` of memory at most, without tiles and cells.

@@ -25,7 +25,16 @@ PreparedAnswer prepared(Response response) {
     answer->unchanged = prepared(unless_known(response, response.header("ETag")));
   }
   answer->response = std::move(response);
+  answer->map = map_of(answer->response);
+  if (auto* tiles = std::get_if<TileList>(&answer->response.body)) tiles->map = nullptr;
+  if (auto* cells = std::get_if<CellList>(&answer->response.body)) cells->map = nullptr;
   return answer;
+}
+
+std::shared_ptr<const ServedMap> map_of(const Response& response) {
+  if (const auto* tiles = std::get_if<TileList>(&response.body)) return tiles->map;
+  if (const auto* cells = std::get_if<CellList>(&response.body)) return cells->map;
+  return nullptr;
 }
 
 const PreparedAnswer& unless_known(const PreparedAnswer& answer, std::string_view if_none_match) {

@@ -58,9 +58,13 @@ Answer answer_from_memory(const Request& request, Shared& shared) {
   const PreparedAnswer hot = hot_answer(request, shared);
   if (!hot) return answer;
   const PreparedAnswer& chosen = unless_known(hot, request.if_none_match);
+  if (frame_count(chosen->response) > 0) {
+    answer.map = chosen->map.lock();
+    if (!answer.map) return {};  // it is no longer in memory, nor are the entries of its tiles
+  }
   if (has_frames(request, chosen->response)) {
     Frame first = shared.frames.find(frame_digest(chosen->response, 0));
-    if (!first) return answer;
+    if (!first) return {};
     answer.frames.push_back(std::move(first));
   }
   answer.prepared = chosen;
@@ -69,14 +73,16 @@ Answer answer_from_memory(const Request& request, Shared& shared) {
 
 Answer answer_from_disk(const Request& request, Shared& shared) {
   const std::shared_ptr<const Catalog> catalog = shared.catalog->now();
-  const PreparedAnswer found = prepared(unconditional(request, *catalog, shared));
+  Response response = unconditional(request, *catalog, shared);
+  std::shared_ptr<const ServedMap> map = map_of(response);
+  const PreparedAnswer found = prepared(std::move(response));
   if (asks_for_content(request)) shared.answers.add(request.target, catalog, found);
   const PreparedAnswer& chosen = unless_known(found, request.if_none_match);
-  if (!has_frames(request, chosen->response)) return {chosen, {}};
-  Result<std::vector<Frame>> frames = read_frames(chosen->response, 0, shared.frames);
-  if (frames) return {chosen, std::move(frames).value()};
+  if (!has_frames(request, chosen->response)) return {chosen, {}, std::move(map)};
+  Result<std::vector<Frame>> frames = read_frames(chosen->response, *map, 0, shared.frames);
+  if (frames) return {chosen, std::move(frames).value(), std::move(map)};
   spdlog::error("{}", frames.error().line());
-  return {prepared(problem(500, "the map cannot be read; the server's log says why")), {}};
+  return {prepared(problem(500, "the map cannot be read; the server's log says why")), {}, nullptr};
 }
 
 }  // namespace milepost::server

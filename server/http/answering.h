@@ -12,7 +12,8 @@ namespace milepost::server {
 
 struct Answer {
   PreparedAnswer prepared;
-  std::vector<Frame> frames;  // the first ones of the body
+  std::vector<Frame> frames;             // the first ones of the body
+  std::shared_ptr<const ServedMap> map;  // of the body's frames; null without
 };
 
 // The answer, if it and the first frame of its body are in memory; else without `prepared`. Never

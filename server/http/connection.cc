@@ -153,7 +153,7 @@ void Connection::await_request() {
 void Connection::answer() {
   begun_ = Clock::now();
   responding_ = true;
-  if (incoming_.refusal) return respond({prepared(std::move(*incoming_.refusal)), {}});
+  if (incoming_.refusal) return respond({prepared(std::move(*incoming_.refusal)), {}, nullptr});
   Answer hot = answer_from_memory(incoming_.request, shared_);
   if (hot.prepared) return respond(std::move(hot));
   answer_later();
@@ -180,7 +180,7 @@ void Connection::refuse(PreparedAnswer answer) {
   begun_ = Clock::now();
   responding_ = true;
   incoming_ = {{"-", "-", {}}, 11, false, {}};
-  respond({std::move(answer), {}});
+  respond({std::move(answer), {}, nullptr});
 }
 
 void Connection::respond(Answer answer) {
@@ -189,7 +189,8 @@ void Connection::respond(Answer answer) {
   keep_alive_ = incoming_.keep_alive && !last;
   broken_ = false;
   sent_bytes_ = 0;
-  outgoing_.begin(std::move(answer.prepared), worker_.head_end(incoming_.http_version, keep_alive_),
+  outgoing_.begin(std::move(answer.prepared), std::move(answer.map),
+                  worker_.head_end(incoming_.http_version, keep_alive_),
                   incoming_.request.method != "HEAD");
   for (Frame& frame : answer.frames) outgoing_.add(std::move(frame));
   send();
@@ -264,10 +265,10 @@ void Connection::add_hot_frames() {
 void Connection::read_ahead() {
   if (reading_ || broken_ || !outgoing_.wants_frame()) return;
   reading_ = true;
-  shared_.disk.run([self = shared_from_this(), answer = outgoing_.answer(),
+  shared_.disk.run([self = shared_from_this(), answer = outgoing_.answer(), map = outgoing_.map(),
                     first = outgoing_.next_frame()]() mutable {
     Worker& worker = self->worker_;
-    auto frames = read_frames(answer->response, first, self->shared_.frames);
+    auto frames = read_frames(answer->response, *map, first, self->shared_.frames);
     net::post(worker.context(), [self = std::move(self), frames = std::move(frames)]() mutable {
       self->reading_ = false;
       if (!self->closed_) self->add_frames(std::move(frames));

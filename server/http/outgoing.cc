@@ -11,8 +11,10 @@ constexpr std::size_t kKeptPieces = 16;  // memory of a connection between respo
 
 }  // namespace
 
-void Outgoing::begin(PreparedAnswer answer, std::string_view end, bool with_body) {
+void Outgoing::begin(PreparedAnswer answer, std::shared_ptr<const ServedMap> map,
+                     std::string_view end, bool with_body) {
   answer_ = std::move(answer);
+  map_ = std::move(map);
   end_ = end;
   frames_ = with_body ? frame_count(answer_->response) : 0;
   next_frame_ = 0;
@@ -61,6 +63,7 @@ void Outgoing::sent(std::size_t bytes) {
 
 void Outgoing::end() {
   answer_.reset();
+  map_.reset();
   pieces_.clear();
   if (pieces_.capacity() > kKeptPieces) std::vector<Piece>().swap(pieces_);
   first_piece_ = 0;

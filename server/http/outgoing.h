@@ -4,6 +4,7 @@
 #include <sys/uio.h>
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,12 +18,15 @@ namespace milepost::server {
 // Not safe to use from several threads at once.
 class Outgoing {
  public:
-  // `end` completes the head (HeadEnds) and is copied. REQUIRES: complete().
-  void begin(PreparedAnswer answer, std::string_view end, bool with_body);
+  // `map`: of the body's frames; null without. `end` completes the head (HeadEnds) and is copied.
+  // REQUIRES: complete().
+  void begin(PreparedAnswer answer, std::shared_ptr<const ServedMap> map, std::string_view end,
+             bool with_body);
   bool begun() const { return answer_ != nullptr; }
   // REQUIRES: begun(), until end().
   const PreparedAnswer& answer() const { return answer_; }
   const Response& response() const { return answer_->response; }
+  const std::shared_ptr<const ServedMap>& map() const { return map_; }
 
   // The next frame of the body has not been added, and there is room for it.
   bool wants_frame() const { return next_frame_ < frames_ && ready_bytes_ < kReadAheadBytes; }
@@ -48,6 +52,7 @@ class Outgoing {
   void add(std::string_view bytes, Frame owner);
 
   PreparedAnswer answer_;
+  std::shared_ptr<const ServedMap> map_;
   std::string end_;
   std::size_t frames_ = 0;      // of the body
   std::size_t next_frame_ = 0;  // to be added

@@ -62,7 +62,12 @@ TEST_F(ConnectionsTest, TooManyAreRejectedAndLaterServed) {
 }
 
 TEST_F(ConnectionsTest, LongestIdleOneMakesRoom) {
-  start_with_limit(3, 10);
+  // One thread, so that connections are taken in the order in which they came.
+  ServerSettings settings;
+  settings.threads = 1;
+  settings.limits.connections = 3;
+  settings.limits.per_address = 10;
+  start(settings);
   Connection busy(port_);
   busy.send(kHalf);
   Connection silent(port_);  // never says a word

@@ -61,13 +61,13 @@ TEST_F(HotTest, FramesAreReadOnceAndAheadWithinABound) {
   const Response range = answer("/v1/maps/town/builds/" + town_.build +
                                 "/segments/s1/tiles?layer=tracklets&from_m=0&to_m=inf");
   ASSERT_EQ(frame_count(range), 4U);
-  const auto first = read_frames(range, 0, memory);
+  const auto first = read_frames(range, *map_of(range), 0, memory);
   ASSERT_TRUE(first.ok());
   ASSERT_EQ(first->size(), 2U);  // 200 kB; the bound is 128 kB
   EXPECT_EQ(*first->at(1), town_.frames[1]);
   EXPECT_EQ(memory.find(frame_digest(range, 1)), first->at(1));
   EXPECT_EQ(memory.find(frame_digest(range, 2)), nullptr);
-  EXPECT_EQ(read_frames(range, 1, memory)->at(0), first->at(1));
+  EXPECT_EQ(read_frames(range, *map_of(range), 1, memory)->at(0), first->at(1));
 }
 
 TEST(HotFramesTest, WhatIsTooBigIsSharedWhileSomebodyHoldsIt) {

@@ -9,6 +9,7 @@
 
 #include "server/catalog/reloader.h"
 #include "server/hot/frames_of.h"
+#include "server/hot/prepared.h"
 #include "server/routes/handle.h"
 #include "tests/server/responses.h"
 #include "tests/server/test_map.h"
@@ -58,7 +59,7 @@ class ReloadTest : public ::testing::Test {
     const Response response = get(tile_path(build));
     if (response.status != 200) return std::to_string(response.status);
     HotFrames memory(1);  // none
-    const auto frames = read_frames(response, 0, memory);
+    const auto frames = read_frames(response, *map_of(response), 0, memory);
     return frames ? std::string(as_text(*frames->front())) : frames.error().line();
   }
   static std::string text(const Bytes& bytes) { return std::string(as_text(bytes)); }
