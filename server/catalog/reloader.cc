@@ -104,8 +104,8 @@ void Reloader::reload() {
   has_failed_ = !after;
   if (!after || before->is_same(**after)) return;
   ++reloads_;
-  log_changes(*before, **after);
   catalog_->replace(*after);
+  log_changes(*before, **after);
 }
 
 }  // namespace milepost::server

@@ -171,7 +171,7 @@ void Connection::answer_later() {
           self->serve();
         });
       });
-  if (!accepted) return respond({disk_is_busy(), {}});
+  if (!accepted) return respond({disk_is_busy(), {}, nullptr});
   worker_.wait(*this, Phase::disk);
 }
 

@@ -104,6 +104,13 @@ TEST_F(HotTest, OnlyWhatHasATagIsKept) {
   }
 }
 
+TEST_F(HotTest, AnAnswerKeepsNoMapInMemory) {
+  const auto tile = prepared(answer(tile_path(1)));
+  EXPECT_NE(tile->map.lock(), nullptr);
+  catalog_.reset();
+  EXPECT_EQ(tile->map.lock(), nullptr);
+}
+
 TEST_F(HotTest, PreparedAnswerKnowsIts304) {
   const auto tile = prepared(answer(tile_path(1)));
   const std::string tag(tile->response.header("ETag"));

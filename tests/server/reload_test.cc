@@ -273,6 +273,20 @@ TEST_F(ReloaderTest, SeesFilesComeAndOldBuildsEnd) {
   EXPECT_GE(reloader_->reloads(), 2U);
 }
 
+TEST_F(ReloaderTest, LooksWhenItIsAskedTo) {
+  const TemporaryFolder elsewhere;
+  write_town(elsewhere.path() / "first", 100, 1);
+  const TownMap second = write_town(elsewhere.path() / "second", 100, 2);
+  fs::create_symlink(elsewhere.path() / "first", folder_.path() / "town.map");
+  ReloadSettings settings;
+  settings.quiet = 1ms;
+  settings.interval = 1h;
+  start(settings);
+  fs::rename(elsewhere.path() / "second", elsewhere.path() / "first");
+  reloader_->look();
+  EXPECT_TRUE(comes_true([&] { return is_current(second.build); }));
+}
+
 TEST_F(ReloaderTest, SeesWhatIsNotWatchedFromTimeToTime) {
   write(1, ".first");
   const TownMap second = write(2, ".second");
