@@ -28,7 +28,11 @@ Result<std::string> read_signature_of(const fs::path& map_file, const std::strin
   if (unreachable == std::errc::no_such_file_or_directory) {
     return unsigned_build(build, "is not signed");
   }
-  if (!unreachable && bytes > kMaxSignatureBytes) {
+  if (unreachable) {  // a FIFO too, whose reading would block
+    return Error{ErrorCode::io, file.string(), "cannot be read (" + unreachable.message() + ")",
+                 "let the server's user read the file, or remove it"};
+  }
+  if (bytes > kMaxSignatureBytes) {
     return Error{ErrorCode::corrupt, file.string(), "is too long for a signature",
                  "sign the map again"};
   }

@@ -23,6 +23,8 @@ using nlohmann::json;
 // A document whose URL is also the start of others is stored under this name in their folder.
 constexpr const char* kIndex = "index.json";
 
+std::string below(const std::string& path, const std::string& name) { return path + '/' + name; }
+
 // The error that the server would report.
 Error error_of(const Response& response, const std::string& target) {
   const auto* body = std::get_if<SharedText>(&response.body);
@@ -159,7 +161,7 @@ class Publication {
     for (const auto& [layer, index] : document.at("tiles").items()) {
       for (const json& tile : index) {
         const Result<std::string> copied =
-            copy(target + "/tiles/" + layer + "/" + tile.at("index").dump());
+            copy(below(below(target + "/tiles", layer), tile.at("index").dump()));
         if (!copied) return copied.error();
       }
     }
@@ -177,7 +179,7 @@ class Publication {
       settings_.on_progress("layer " + layer + ": " + std::to_string(index.size()) + " cells");
       for (const json& cell : index) {
         const Result<std::string> copied =
-            copy(target + "/" + layer + "/" + cell.at("cell").dump());
+            copy(below(below(target, layer), cell.at("cell").dump()));
         if (!copied) return copied.error();
       }
     }
@@ -230,7 +232,7 @@ class Publication {
     }
     for (const std::string& build : builds) {
       if (!is_digest(build) || (!is_gone && current->second == build)) continue;
-      const Status removed = tree_.remove(folder + "/builds/" + build);
+      const Status removed = tree_.remove(below(folder + "/builds", build));
       if (!removed) return removed;
       ++removed_;
     }

@@ -2,6 +2,7 @@
 #include "schema/document/signature.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -74,6 +75,15 @@ TEST_F(ServedSignatureTest, ADamagedOneIsAFailureOfTheServer) {
     EXPECT_EQ(problem_status(get()), 500U);
     EXPECT_THAT(detail_of(get()), HasSubstr("town.map.sig"));
   }
+}
+
+TEST_F(ServedSignatureTest, AFifoOrAFolderIsAFailureThatBlocksNobody) {
+  const auto file = folder_.path() / "town.map.sig";
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  EXPECT_EQ(problem_status(get()), 500U);
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  EXPECT_EQ(problem_status(get()), 500U);
 }
 
 TEST_F(ServedSignatureTest, IsNeitherAMapNorWarnedAbout) {

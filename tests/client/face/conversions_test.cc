@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace milepost::vehicle {
@@ -172,6 +173,21 @@ TEST(OpenSource, TimeoutsAreAboveZeroAndBounded) {
   EXPECT_EQ(open_source(server).error().code, ErrorCode::invalid_input);
   server.stall_timeout_s = 0;
   EXPECT_EQ(open_source(server).error().code, ErrorCode::invalid_input);
+}
+
+TEST(OpenSource, PublicKeysAreContentsOfTheirFiles) {
+  const auto folder = std::filesystem::temp_directory_path() / "milepost-public-keys-test";
+  ServerSource server;
+  server.url = "http://127.0.0.1:1";
+  server.cache_directory = folder;
+  server.public_keys = {"milepost-public-key-1 " + std::string(64, '5') + "\n", "operator.key.pub"};
+  const auto refused = open_source(server);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::invalid_input);
+  EXPECT_NE(refused.error().line().find("public_keys"), std::string::npos);
+  server.public_keys.pop_back();
+  EXPECT_TRUE(open_source(server).ok());
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

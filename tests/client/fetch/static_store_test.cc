@@ -12,7 +12,6 @@ namespace milepost::testing {
 namespace {
 
 using nlohmann::json;
-using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -108,8 +107,13 @@ TEST_F(StaticStoreTest, TheSegmentsNearbyAreFoundByTheirDocuments) {
   EXPECT_NEAR(near->front().along_m, 50, 0.1);
   EXPECT_NEAR(near->front().distance_m, 7.3, 0.1);
   EXPECT_EQ(near->front().length_m, 200);
-  EXPECT_THAT(requests(is_any), Not(Contains(HasSubstr("far"))));
   EXPECT_THAT(*source->segments_near({49.5, 8.4, 0}, 50), IsEmpty());
+}
+
+TEST_F(StaticStoreTest, DocumentsOfSegmentsOutOfReachAreNotRequested) {
+  segments_ = {placed("s1", 0.01)};  // 1.1 km to the north
+  EXPECT_THAT(*open_source()->segments_near(kBesideTheSegment, 50), IsEmpty());
+  EXPECT_THAT(requests(is_any), SizeIs(1));
 }
 
 TEST_F(StaticStoreTest, TheListIsKeptForAMinute) {
