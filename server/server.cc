@@ -49,9 +49,9 @@ ConnectionLimits completed(ConnectionLimits limits) {
 struct Server::Impl {
   Impl(std::shared_ptr<const CurrentCatalog> catalog, const ServerSettings& settings,
        std::vector<ListeningSocket> sockets)
-      : shared(std::move(catalog), settings.viewer, completed(settings.limits), settings.hot_bytes,
+      : port(sockets.front().port()),
+        shared(std::move(catalog), settings.viewer, completed(settings.limits), settings.hot_bytes,
                settings.disk_threads, settings.disk_queue) {
-    port = sockets.front().port();
     for (const ListeningSocket& socket : sockets) addresses.push_back(socket.address());
     for (unsigned i = 0; i < settings.threads; ++i) {
       workers.push_back(std::make_unique<Worker>(shared));
@@ -77,7 +77,7 @@ struct Server::Impl {
   }
 
   std::vector<std::string> addresses;
-  std::uint16_t port = 0;
+  const std::uint16_t port;
   Shared shared;
   std::vector<std::unique_ptr<Worker>> workers;
   std::unique_ptr<Listener> listener;

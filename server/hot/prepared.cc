@@ -1,7 +1,7 @@
 #include "server/hot/prepared.h"
 
-#include "server/http/head.h"
 #include "server/message/conditional.h"
+#include "server/message/head.h"
 
 namespace milepost::server {
 
@@ -12,10 +12,10 @@ std::size_t Prepared::bytes() const {
     return bytes + (*text ? (*text)->size() : 0);
   }
   if (const auto* list = std::get_if<TileList>(&response.body)) {
-    return bytes + list->tiles.size() * sizeof(list->tiles.front());
+    return bytes + list->tiles.size() * sizeof(void*);
   }
   const auto& cells = std::get<CellList>(response.body).cells;
-  return bytes + cells.size() * sizeof(cells.front());
+  return bytes + cells.size() * sizeof(void*);
 }
 
 PreparedAnswer prepared(Response response) {

@@ -21,7 +21,7 @@ namespace milepost::server {
 //   serve
 //
 // At any time it waits for its client, or for the disk, or for both while it reads ahead.
-class Connection : public Waiting, public std::enable_shared_from_this<Connection> {
+class Connection final : public Waiting, public std::enable_shared_from_this<Connection> {
  public:
   // `worker` must outlive the connection.
   Connection(Worker& worker, Accepted accepted);
@@ -29,11 +29,9 @@ class Connection : public Waiting, public std::enable_shared_from_this<Connectio
   void start();
   // Answers 503, then closes.
   void reject();
-  // The time of its phase is over.
-  void expire();
-  // Bytes have arrived that were not received yet.
-  bool has_bytes() const;
-  void close();
+  void expire() override;
+  bool has_bytes() const override;
+  void close() override;
 
  private:
   void await_bytes();

@@ -27,6 +27,15 @@ struct Waiting
     : boost::intrusive::list_base_hook<boost::intrusive::link_mode<boost::intrusive::auto_unlink>> {
   Phase phase = Phase::disk;
   Clock::time_point deadline = Clock::time_point::max();
+
+  // The time of its phase is over: enters another one, or closes.
+  virtual void expire() = 0;
+  virtual void close() = 0;
+  // Bytes have arrived that were not received yet.
+  virtual bool has_bytes() const = 0;
+
+ protected:
+  ~Waiting() = default;
 };
 
 // Each phase has one duration, so that the first to enter it is the first to expire: a list a phase

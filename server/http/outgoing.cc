@@ -40,7 +40,8 @@ std::size_t Outgoing::gather(std::span<iovec> buffers) const {
   const std::size_t count = std::min(buffers.size(), pieces_.size() - first_piece_);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string_view bytes = pieces_[first_piece_ + i].bytes;
-    buffers[i] = {const_cast<char*>(bytes.data()), bytes.size()};  // sending does not change them
+    // Sending does not change them. NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+    buffers[i] = {const_cast<char*>(bytes.data()), bytes.size()};
   }
   return count;
 }

@@ -12,8 +12,6 @@ namespace {
 constexpr std::chrono::milliseconds kTimerStep{10};  // deadlines this near are one
 constexpr int kLooksForIdle = 8;
 
-Connection& connection_of(Waiting& waiting) { return static_cast<Connection&>(waiting); }
-
 }  // namespace
 
 Worker::Worker(Shared& shared)
@@ -46,7 +44,7 @@ void Worker::abort() {
   net::post(context_, [this] {
     for (const Phase phase :
          {Phase::disk, Phase::idle, Phase::request, Phase::send, Phase::linger, Phase::last}) {
-      while (Waiting* waiting = deadlines_.first(phase)) connection_of(*waiting).close();
+      while (Waiting* waiting = deadlines_.first(phase)) waiting->close();
     }
   });
 }
@@ -95,19 +93,18 @@ bool Worker::close_longest_idle() {
   for (int i = 0; i < kLooksForIdle; ++i) {
     Waiting* longest = deadlines_.first(Phase::idle);
     if (longest == nullptr) return false;
-    Connection& connection = connection_of(*longest);
-    if (!connection.has_bytes()) {
-      connection.close();
+    if (!longest->has_bytes()) {
+      longest->close();
       return true;
     }
-    wait(connection, Phase::idle);  // its next request has arrived
+    wait(*longest, Phase::idle);  // its next request has arrived
   }
   return false;
 }
 
 void Worker::close_expired() {
   const Clock::time_point now = Clock::now();
-  while (Waiting* waiting = deadlines_.expired(now)) connection_of(*waiting).expire();
+  while (Waiting* waiting = deadlines_.expired(now)) waiting->expire();
   armed_ = Clock::time_point::max();
   if (const auto earliest = deadlines_.earliest()) arm(*earliest);
 }

@@ -12,10 +12,10 @@
 #include <boost/asio/executor_work_guard.hpp>
 
 #include "server/http/deadlines.h"
-#include "server/http/head.h"
 #include "server/http/shared.h"
 #include "server/http/sockets.h"
 #include "server/listen/accepted.h"
+#include "server/message/head.h"
 
 namespace milepost::server {
 

@@ -78,8 +78,9 @@ Status serve(const std::filesystem::path& folder, unsigned threads) {
   if (!build) return build.error();
   server::ServerSettings settings;
   settings.threads = threads;
-  const auto catalog =
-      server::Catalog::open(folder, settings.disk_threads, [](const std::string&) {});
+  server::CatalogSettings maps;
+  maps.open_maps.readers = settings.disk_threads;
+  const auto catalog = server::Catalog::open(folder, maps, [](const std::string&) {});
   if (!catalog) return catalog.error();
   const auto running =
       server::Server::start(std::make_shared<server::CurrentCatalog>(*catalog), settings);

@@ -5,7 +5,8 @@
 #include <string_view>
 
 #include "server/hot/frames_of.h"
-#include "server/http/head.h"
+#include "server/hot/prepared.h"
+#include "server/message/head.h"
 #include "server/routes/handle.h"
 #include "tests/fuzz/check.h"
 #include "tests/server/test_map.h"
@@ -48,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto* body = std::get_if<SharedText>(&response.body);
   std::uint64_t bytes = body != nullptr && *body != nullptr ? (*body)->size() : 0;
   for (std::size_t i = 0; i < frame_count(response);) {
-    const Result<std::vector<Frame>> frames = read_frames(response, i, memory);
+    const Result<std::vector<Frame>> frames = read_frames(response, *map_of(response), i, memory);
     fuzz::check(frames.ok() && !frames->empty());
     for (const Frame& frame : *frames) bytes += frame->size();
     i += frames->size();

@@ -178,7 +178,7 @@ TEST(ServiceManagerTest, IsNotified) {
   path.copy(address.sun_path, sizeof(address.sun_path) - 1);
   ASSERT_EQ(::bind(manager, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
   ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
-  EXPECT_TRUE(notify_service_manager("READY=1").ok());
+  ASSERT_TRUE(notify_service_manager("READY=1").ok());
   std::array<char, 100> told{};
   EXPECT_EQ(::recv(manager, told.data(), told.size(), 0), 7);
   EXPECT_STREQ(told.data(), "READY=1");

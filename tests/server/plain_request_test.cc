@@ -113,6 +113,7 @@ std::vector<std::string> read_in_pieces(const std::string& bytes, std::size_t si
     const std::string piece = bytes.substr(at, size);  // gone after keep()
     reader.add(piece);
     while (reader.next(incoming)) {
+      if (incoming.refusal) return found;
       found.push_back(incoming.request.method + ' ' + incoming.request.target + ' ' +
                       incoming.request.if_none_match);
     }

@@ -1,4 +1,4 @@
-#include "server/http/head.h"
+#include "server/message/head.h"
 
 #include <array>
 
