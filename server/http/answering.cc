@@ -26,8 +26,11 @@ bool asks_for_content(const Request& request) {
 // The answer without regard to If-None-Match.
 Response unconditional(const Request& request, const Catalog& catalog, const Shared& shared) {
   try {
-    return handle({request.method, request.target, {}}, catalog,
-                  shared.viewer == nullptr ? Viewer::plain() : *shared.viewer, shared.metrics);
+    Response response =
+        handle({request.method, request.target, {}}, catalog,
+               shared.viewer == nullptr ? Viewer::plain() : *shared.viewer, shared.metrics);
+    if (response.status == 500) spdlog::error("{}", printable(problem_detail(response)));
+    return response;
   } catch (const std::exception& failure) {
     spdlog::error("{} {}: {}", printable(request.method), printable(request.target),
                   failure.what());

@@ -88,6 +88,10 @@ Response problem(unsigned status, const std::string& detail) {
   return response;
 }
 
+std::string problem_detail(const Response& response) {
+  return nlohmann::json::parse(*std::get<SharedText>(response.body)).at("detail");
+}
+
 Response problem(const Error& error) { return problem(status_of(error.code), error.line()); }
 
 }  // namespace milepost::server

@@ -51,5 +51,7 @@ SharedText shared_text(std::string text);
 Response problem(unsigned status, const std::string& detail);
 // The same for an Error: 400, 404, 410, 503 or 500 by its code.
 Response problem(const Error& error);
+// The detail of such a response.
+std::string problem_detail(const Response& response);
 
 }  // namespace milepost::server

@@ -369,6 +369,21 @@ TEST_F(ProgramWithMapTest, MapsAreTakenUpWhenTheyComeAndOnSighup) {
   EXPECT_EQ(program.wait(), 0);
 }
 
+TEST_F(ProgramWithMapTest, AMapThatIsDamagedLaterIsToldInTheLogAndAtReadyz) {
+  const TownMap town = write_town(maps_.path() / "town.map", 5000);
+  Program program({"--maps", maps_.path(), "--listen", "127.0.0.1:0"});
+  const std::uint16_t port = port_in(program.line());
+  EXPECT_EQ(fetch(port, "/readyz").body, "ok\n");
+  std::filesystem::resize_file(maps_.path() / "town.map", 8192);
+  const std::string tile = "/v1/maps/town/builds/" + town.build + "/segments/s1/tiles/tracklets/0";
+  EXPECT_EQ(fetch(port, tile).status, 500);
+  EXPECT_THAT(fetch(port, "/readyz").body, HasSubstr("of map town: "));
+  EXPECT_THAT(fetch(port, "/metrics").body, HasSubstr("milepost_map_damaged{map=\"town\""));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_THAT(program.error(), HasSubstr("[error] " + (maps_.path() / "town.map").string()));
+}
+
 TEST_F(ProgramWithMapTest, CheckConfigListsWhatWouldBeServed) {
   Program sound({"--maps", maps_.path(), "--listen", "127.0.0.1:0", "--check-config"});
   EXPECT_THAT(sound.output(), AllOf(HasSubstr("town  build "), HasSubstr("town.map\n")));
