@@ -128,7 +128,7 @@ void add_viewer(CLI::App& app, ViewerSettings& viewer) {
       ->option_text("URL");
   app.add_option("--tiles-attribution", viewer.tiles_attribution,
                  "What the page says of their makers")
-      ->option_text("TEXT");
+      ->option_text("WORDS");
 }
 
 void take(const Numbers& numbers, Options& options) {

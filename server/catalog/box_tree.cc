@@ -57,7 +57,7 @@ std::vector<std::size_t> BoxTree::near(const GeoPoint& position, double radius_m
     for (const Entry& entry : found) numbers.push_back(entry.second);
   }
   std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 

@@ -54,11 +54,13 @@ Result<std::shared_ptr<const Catalog>> Catalog::reloaded(Clock::time_point now,
                                                          const Warn& warn) const {
   Result<MapDirectory> read = read_directory(path_, directory_, *open_maps_, settings_.kept, warn);
   if (!read) return read.error();
-  for (const auto& [file, error] : read->left_out) {
-    const bool is_known = std::ranges::any_of(directory_.left_out, [&](const auto& known) {
-      return known.first == file && known.second.line() == error.line();
+  const auto is_known = [&](const std::pair<fs::path, Error>& left_out) {
+    return std::ranges::any_of(directory_.left_out, [&](const auto& known) {
+      return known.first == left_out.first && known.second.line() == left_out.second.line();
     });
-    if (!is_known) warn(error.line());
+  };
+  for (const auto& left_out : read->left_out) {
+    if (!is_known(left_out)) warn(left_out.second.line());
   }
   const std::shared_ptr<Catalog> catalog(new Catalog);
   catalog->path_ = path_;

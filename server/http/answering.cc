@@ -38,6 +38,11 @@ Response unconditional(const Request& request, const Catalog& catalog, const Sha
   }
 }
 
+// Whether the answer is the same as long as the catalog is: signatures come while maps are served.
+bool is_of_catalog_alone(const Response& response) {
+  return !response.route.ends_with("/manifest.sig");
+}
+
 // Null if it is not in memory.
 PreparedAnswer hot_answer(const Request& request, Shared& shared) {
   const std::shared_ptr<const Catalog> catalog = shared.catalog->now();
@@ -79,7 +84,8 @@ Answer answer_from_disk(const Request& request, Shared& shared) {
   Response response = unconditional(request, *catalog, shared);
   std::shared_ptr<const ServedMap> map = map_of(response);
   const PreparedAnswer found = prepared(std::move(response));
-  if (asks_for_content(request)) shared.answers.add(request.target, catalog, found);
+  if (asks_for_content(request) && is_of_catalog_alone(found->response))
+    shared.answers.add(request.target, catalog, found);
   const PreparedAnswer& chosen = unless_known(found, request.if_none_match);
   if (!has_frames(request, chosen->response)) return {chosen, {}, std::move(map)};
   Result<std::vector<Frame>> frames = read_frames(chosen->response, *map, 0, shared.frames);

@@ -77,7 +77,9 @@ class FrontTest(CommandTest):
     def test_tiles_come_from_the_cache_and_the_current_state_does_not(self):
         with Server(self.maps) as server, self.nginx(server.url.removeprefix("http://")) as port:
             current = json.loads(self.get(port, "/v1/maps/street")[1])
-            tile = f"/v1/maps/street/builds/{current['build']}/segments/{current['segments'][0]}/tiles/landmarks/0"
+            segment = f"/v1/maps/street/builds/{current['build']}/segments/{current['segments'][0]}"
+            layer = next(iter(json.loads(self.get(port, segment)[1])["tiles"]))
+            tile = f"{segment}/tiles/{layer}/0"
             answer, first = self.get(port, tile)
             self.assertEqual(answer.status, 200)
             self.assertEqual(answer.headers["X-Cache"], "MISS")
@@ -111,8 +113,9 @@ class DashboardTest(CommandTest):
         with Server(maps) as server:
             url = server.url + "/v1/maps/street"
             current = json.loads(urllib.request.urlopen(url, timeout=30).read())
-            tile = f"{url}/builds/{current['build']}/segments/{current['segments'][0]}/tiles/landmarks/0"
-            urllib.request.urlopen(tile, timeout=30).read()
+            segment = f"{url}/builds/{current['build']}/segments/{current['segments'][0]}"
+            layer = next(iter(json.loads(urllib.request.urlopen(segment, timeout=30).read())["tiles"]))
+            urllib.request.urlopen(f"{segment}/tiles/{layer}/0", timeout=30).read()
             text = urllib.request.urlopen(server.url + "/metrics", timeout=30).read().decode()
         told = set(re.findall(r"^(\w+)", text, re.MULTILINE)) | {"milepost_map_damaged"}  # only with a damaged map
         dashboard = json.loads((ROOT / "deploy" / "grafana" / "milepost-server.json").read_text())
