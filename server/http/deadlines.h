@@ -34,8 +34,7 @@ struct Waiting
   // Bytes have arrived that were not received yet.
   virtual bool has_bytes() const = 0;
 
- protected:
-  ~Waiting() = default;
+  virtual ~Waiting() = default;
 };
 
 // Each phase has one duration, so that the first to enter it is the first to expire: a list a phase

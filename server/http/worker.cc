@@ -4,7 +4,7 @@
 
 #include <boost/asio/post.hpp>
 
-#include "server/http/connection.h"
+#include "server/http/session.h"
 
 namespace milepost::server {
 namespace {
@@ -84,7 +84,7 @@ void Worker::take(Accepted accepted) {
   if (ticket.verdict() == Admission::Verdict::replace && !close_longest_idle()) ticket.reject();
   const Admission::Verdict verdict = ticket.verdict();
   if (verdict == Admission::Verdict::drop) return;
-  const auto connection = std::make_shared<Connection>(*this, std::move(accepted));
+  const auto connection = std::make_shared<Session>(*this, std::move(accepted));
   verdict == Admission::Verdict::reject ? connection->reject() : connection->start();
 }
 

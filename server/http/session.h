@@ -21,11 +21,10 @@ namespace milepost::server {
 //   serve
 //
 // At any time it waits for its client, or for the disk, or for both while it reads ahead.
-// NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): it is final, and owned as itself.
-class Connection final : public Waiting, public std::enable_shared_from_this<Connection> {
+class Session final : public Waiting, public std::enable_shared_from_this<Session> {
  public:
   // `worker` must outlive the connection.
-  Connection(Worker& worker, Accepted accepted);
+  Session(Worker& worker, Accepted accepted);
 
   void start();
   // Answers 503, then closes.

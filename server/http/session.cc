@@ -1,4 +1,4 @@
-#include "server/http/connection.h"
+#include "server/http/session.h"
 
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
@@ -42,7 +42,7 @@ bool is_to_be_repeated(int error) { return error == EAGAIN || error == EINTR; }
 
 }  // namespace
 
-Connection::Connection(Worker& worker, Accepted accepted)
+Session::Session(Worker& worker, Accepted accepted)
     : worker_(worker),
       shared_(worker.shared()),
       socket_(worker.context()),
@@ -57,15 +57,15 @@ Connection::Connection(Worker& worker, Accepted accepted)
   closed_ = bool(error);
 }
 
-void Connection::start() {
+void Session::start() {
   if (!closed_) await_request();
 }
 
-void Connection::reject() {
+void Session::reject() {
   if (!closed_) refuse(too_many_connections());
 }
 
-void Connection::expire() {
+void Session::expire() {
   if (phase == Phase::request) {
     refuse(request_timed_out());
   } else if (phase == Phase::last && has_bytes()) {
@@ -75,14 +75,14 @@ void Connection::expire() {
   }
 }
 
-bool Connection::has_bytes() const {
+bool Session::has_bytes() const {
   int bytes = 0;
   // Asio has no const native_handle(). NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
   const int socket = const_cast<Socket&>(socket_).native_handle();
   return ::ioctl(socket, FIONREAD, &bytes) == 0 && bytes > 0;
 }
 
-void Connection::close() {
+void Session::close() {
   if (closed_) return;
   closed_ = true;
   if (responding_) report(true);
@@ -92,7 +92,7 @@ void Connection::close() {
   worker_.forget(*this);
 }
 
-void Connection::await_bytes() {
+void Session::await_bytes() {
   if (awaiting_bytes_) return;
   awaiting_bytes_ = true;
   socket_.async_wait(Socket::wait_read, [self = shared_from_this()](const error_code&) {
@@ -101,7 +101,7 @@ void Connection::await_bytes() {
   });
 }
 
-void Connection::receive() {
+void Session::receive() {
   auto& scratch = worker_.scratch();
   const ssize_t received = ::recv(socket_.native_handle(), scratch.data(), scratch.size(), 0);
   if (received < 0 && is_to_be_repeated(errno)) return await_bytes();
@@ -112,14 +112,14 @@ void Connection::receive() {
   serve();
 }
 
-void Connection::discard(std::size_t bytes) {
+void Session::discard(std::size_t bytes) {
   discarded_bytes_ += bytes;
   if (discarded_bytes_ > kDiscardedBytes) return close();
   await_bytes();
 }
 
 // Answers the requests that have arrived.
-void Connection::serve() {
+void Session::serve() {
   int requests = 0;
   while (!closed_ && !responding_ && phase != Phase::linger) {
     if (requests == kRequestsAtOnce) {
@@ -137,7 +137,7 @@ void Connection::serve() {
   reader_.keep();
 }
 
-void Connection::await_request() {
+void Session::await_request() {
   if (reader_.wants_continue()) {
     // There is room for it: nothing else is being sent.
     ::send(socket_.native_handle(), kContinue.data(), kContinue.size(), MSG_NOSIGNAL);
@@ -151,7 +151,7 @@ void Connection::await_request() {
   await_bytes();
 }
 
-void Connection::answer() {
+void Session::answer() {
   begun_ = Clock::now();
   responding_ = true;
   if (incoming_.refusal) return respond({prepared(std::move(*incoming_.refusal)), {}, nullptr});
@@ -160,7 +160,7 @@ void Connection::answer() {
   answer_later();
 }
 
-void Connection::answer_later() {
+void Session::answer_later() {
   const bool accepted =
       shared_.disk.try_run([self = shared_from_this(), request = incoming_.request]() mutable {
         Worker& worker = self->worker_;
@@ -177,14 +177,14 @@ void Connection::answer_later() {
 }
 
 // Answers what is no request, or none that can be served, and closes.
-void Connection::refuse(PreparedAnswer answer) {
+void Session::refuse(PreparedAnswer answer) {
   begun_ = Clock::now();
   responding_ = true;
   incoming_ = {{"-", "-", {}}, 11, false, {}};
   respond({std::move(answer), {}, nullptr});
 }
 
-void Connection::respond(Answer answer) {
+void Session::respond(Answer answer) {
   // At a stop, the last response to requests that have arrived says that it is the last.
   const bool last = worker_.finishing() && reader_.empty();
   keep_alive_ = incoming_.keep_alive && !last;
@@ -198,7 +198,7 @@ void Connection::respond(Answer answer) {
 }
 
 // Sends until the response is complete, or something must be waited for.
-void Connection::send() {
+void Session::send() {
   std::size_t limit = outgoing_.ready_bytes() + kBytesAtOnce;
   while (responding_ && !closed_) {
     add_hot_frames();
@@ -221,7 +221,7 @@ void Connection::send() {
 }
 
 // False if nothing can be sent now.
-bool Connection::send_some() {
+bool Session::send_some() {
   std::array<iovec, 64> buffers;
   msghdr message{};
   message.msg_iov = buffers.data();
@@ -240,7 +240,7 @@ bool Connection::send_some() {
   return true;
 }
 
-void Connection::await_room() {
+void Session::await_room() {
   if (phase != Phase::send || sent_bytes_ >= kStallBytes) {
     worker_.wait(*this, Phase::send);
     sent_bytes_ = 0;
@@ -255,7 +255,7 @@ void Connection::await_room() {
   });
 }
 
-void Connection::add_hot_frames() {
+void Session::add_hot_frames() {
   while (!reading_ && outgoing_.wants_frame()) {
     Frame frame = shared_.frames.find(frame_digest(outgoing_.response(), outgoing_.next_frame()));
     if (!frame) return;
@@ -263,7 +263,7 @@ void Connection::add_hot_frames() {
   }
 }
 
-void Connection::read_ahead() {
+void Session::read_ahead() {
   if (reading_ || broken_ || !outgoing_.wants_frame()) return;
   reading_ = true;
   shared_.disk.run([self = shared_from_this(), answer = outgoing_.answer(), map = outgoing_.map(),
@@ -277,7 +277,7 @@ void Connection::read_ahead() {
   });
 }
 
-void Connection::add_frames(Result<std::vector<Frame>> frames) {
+void Session::add_frames(Result<std::vector<Frame>> frames) {
   if (frames) {
     for (const Frame& frame : *frames) outgoing_.add(frame);
   } else {
@@ -288,7 +288,7 @@ void Connection::add_frames(Result<std::vector<Frame>> frames) {
   serve();
 }
 
-void Connection::end_response() {
+void Session::end_response() {
   report(false);
   outgoing_.end();
   responding_ = false;
@@ -297,13 +297,13 @@ void Connection::end_response() {
 
 // Closes so that the client receives the last response even if it is still sending: closing a
 // socket with unread bytes resets the connection, which may discard the response.
-void Connection::linger() {
+void Session::linger() {
   ::shutdown(socket_.native_handle(), SHUT_WR);
   worker_.wait(*this, Phase::linger);
   await_bytes();
 }
 
-void Connection::report(bool aborted) const {
+void Session::report(bool aborted) const {
   if (!outgoing_.begun()) return;
   const Response& response = outgoing_.response();
   observe({peer_, incoming_.request.method, incoming_.request.target, response.status,
