@@ -41,7 +41,6 @@ class ServedMap {
   const Document& summary() const { return summary_; }  // the build's map document
   const Document& areas() const { return areas_; }      // the index of the cells
   const std::shared_ptr<const MapLines>& lines() const { return lines_; }
-  const std::shared_ptr<const HeldFile>& file() const { return file_; }
   // Of the documents and the indices, about.
   std::uint64_t memory_bytes() const { return memory_bytes_; }
 

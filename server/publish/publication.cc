@@ -140,8 +140,11 @@ class Publication {
     }
     const Status areas = write_areas(root);
     if (!areas) return areas;
-    const Status is_signed = write_signature(root + "/manifest.sig");
-    if (!is_signed) return is_signed;
+    // A build need be neither signed nor recorded.
+    for (const char* name : {"/mapping", "/manifest.sig"}) {
+      const Status copied = copy_if_any(root + name);
+      if (!copied) return copied;
+    }
     for (const char* name : {"/map", "/manifest"}) {
       const Result<std::string> copied = copy(root + name);
       if (!copied) return copied.error();
@@ -186,8 +189,8 @@ class Publication {
     return write(target.substr(1) + "/" + kIndex, *text);
   }
 
-  // Nothing is written for a build that is not signed.
-  Status write_signature(const std::string& target) {
+  // Writes nothing where the server has nothing.
+  Status copy_if_any(const std::string& target) {
     const Result<std::string> copied = copy(target);
     if (copied || copied.error().code == ErrorCode::not_found) return ok_status();
     return copied.error();

@@ -58,6 +58,14 @@ TEST_F(PublicationTest, TilesCellsAndDocumentsAreThoseOfTheMap) {
   EXPECT_EQ(counts->written, counts->files);
 }
 
+TEST_F(PublicationTest, TheRecordOfTheMappingIsThereWhereTheManifestListsIt) {
+  const LaneMap lane = write_lane(maps_.path() / "lane.map");
+  ASSERT_TRUE(publish_now().ok());
+  EXPECT_EQ(content("v1/maps/lane/builds/" + lane.build + "/mapping"),
+            mapping_document(lane.mapping));
+  EXPECT_FALSE(fs::exists(tree_ / root() / "mapping"));
+}
+
 TEST_F(PublicationTest, TheListsSayThatTheyAreStatic) {
   ASSERT_TRUE(publish_now().ok());
   const auto catalog = open_catalog(maps_.path());
