@@ -18,7 +18,7 @@ const std::vector<HeaderGroup>& header_groups() {
        "application/octet-stream",
        kForever},
       {"documents",
-       {"/v1/maps/*/builds/*/manifest", "/v1/maps/*/builds/*/map",
+       {"/v1/maps/*/builds/*/manifest", "/v1/maps/*/builds/*/map", "/v1/maps/*/builds/*/mapping",
         "/v1/maps/*/builds/*/areas/index.json", "/v1/maps/*/builds/*/segments/*/index.json"},
        kJsonType,
        kForever},
