@@ -50,7 +50,8 @@ bool calls_subcommand(int argc, char** argv) {
 int main(int argc, char** argv) {
   open_standard_descriptors();
   if (calls_subcommand(argc, argv)) {
-    return run_program("milepost-server", "Installs, rolls back, publishes and signs maps.",
+    return run_program("milepost-server",
+                       "Installs, rolls back, publishes and signs maps, and makes tokens.",
                        server::subcommands(), argc, argv);
   }
   const auto parsed = server::parse_options(argc, argv, server::inherited_descriptors());

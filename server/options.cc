@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "schema/command/command.h"
+#include "server/message/cross_origin.h"
 
 namespace milepost::server {
 namespace {
@@ -36,7 +37,8 @@ Other commands, each with a --help of its own:
   milepost-server rollback   makes an older build the current one again
   milepost-server publish    writes maps as plain files, for an object store or a static web server
   milepost-server keygen     makes a key to sign maps with
-  milepost-server sign       signs maps, for vehicles that accept no others)";
+  milepost-server sign       signs maps, for vehicles that accept no others
+  milepost-server token      makes tokens, for maps that not everybody may have)";
 
 constexpr const char* kExamples = R"~(Examples:
   milepost-server --maps /srv/milepost --listen 0.0.0.0:8080
@@ -48,6 +50,9 @@ constexpr const char* kExamples = R"~(Examples:
       "(2 maps, 1 left out)"
   milepost-server --maps maps --listen localhost:8080 --listen unix:/run/milepost/http
       serves on every address of localhost, and on a unix socket
+  milepost-server --maps maps --listen 0.0.0.0:443 --listen plain:127.0.0.1:8080 \
+      --tls-cert town.pem --tls-key town.key
+      serves over TLS, and on loopback without, for a proxy or for Prometheus
   milepost-server --config server.toml
       takes the same options as keys; an unknown key is an error:
           maps = "/srv/milepost"
@@ -107,6 +112,44 @@ void add_memory(CLI::App& app, Numbers& numbers) {
              "Tiles and answers in memory: those that were asked for last", 1, kMaxMegabytes);
   add_number(app, "--open-maps-mb", numbers.open_maps_mb, "MB",
              "Documents and indices of maps in memory, likewise", 1, kMaxMegabytes);
+}
+
+void add_tls(CLI::App& app, TlsFiles& tls) {
+  auto* certificate =
+      app.add_option("--tls-cert", tls.certificate,
+                     "Certificate in PEM form, followed by those that signed it: TLS on every\n"
+                     "address but unix sockets and plain: ones. Read again when it changes")
+          ->option_text("FILE");
+  auto* key =
+      app.add_option("--tls-key", tls.key, "Its private key in PEM form, without a passphrase")
+          ->option_text("FILE");
+  certificate->needs(key);
+  key->needs(certificate);
+}
+
+void add_access(CLI::App& app, Options& options) {
+  app.add_option("--tokens", options.tokens,
+                 "Tokens without which nothing of a map is answered, see milepost-server token.\n"
+                 "Read again when it changes (default: everybody may ask for everything)")
+      ->option_text("FILE");
+  app.add_option("--requests-per-s", options.server.rate.requests_per_s,
+                 "Requests of one client in the long run, a token or else an address: then 429\n"
+                 "(default: no limit)")
+      ->check(CLI::Range(0.001, 1e6))
+      ->option_text("N");
+  app.add_option("--burst", options.server.rate.burst,
+                 "Its requests at once after a pause (default those of ten seconds)")
+      ->check(CLI::Range(1.0, 1e6))
+      ->option_text("N");
+  app.add_option(
+         "--allow-origin", options.server.allowed_origins,
+         "Origin whose pages may read what is sent, such as https://maps.example.org, or *\n"
+         "for all; several may be given (default: none but the server's own)")
+      ->check([](const std::string& text) {
+        return is_origin(text) ? std::string()
+                               : "'" + text + "' is no origin; write https://HOST, or *";
+      })
+      ->option_text("ORIGIN...");
 }
 
 void add_log(CLI::App& app, LogSettings& log) {
@@ -177,13 +220,15 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv,
   app.add_option("--listen", listen,
                  "Where to listen; port 0 lets the system choose. Several may be given; none is\n"
                  "needed if systemd hands sockets over")
-      ->option_text("HOST:PORT|unix:PATH...");
+      ->option_text("[plain:]HOST:PORT|unix:PATH...");
   add_number(app, "--threads", options.server.threads, "N", "Threads that send and receive", 1,
              kMaxThreads);
   add_number(app, "--disk-threads", options.server.disk_threads, "N", "Threads that read maps", 1,
              kMaxThreads);
   add_memory(app, numbers);
   add_limits(app, options.server.limits, numbers);
+  add_tls(app, options.tls);
+  add_access(app, options);
   add_number(app, "--keep-builds-s", numbers.keep_builds_s, "S",
              "How long a build that was replaced or taken away is still served", 0, 604800);
   app.add_flag("--ready-needs-all", options.catalog.all_must_be_served,

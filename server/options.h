@@ -17,6 +17,8 @@ struct Options {
   ServerSettings server;
   CatalogSettings catalog;  // but for what depends on the limit of descriptors
   ViewerSettings viewer;
+  TlsFiles tls;                  // no paths: plain HTTP
+  std::filesystem::path tokens;  // no path: everybody may ask for everything
   LogSettings log;
   bool only_check = false;  // the options and the maps
 };

@@ -13,6 +13,7 @@
 #include "server/catalog/reloader.h"
 #include "server/listen/descriptor_limit.h"
 #include "server/listen/service_manager.h"
+#include "server/setup.h"
 
 namespace milepost::server {
 namespace {
@@ -22,14 +23,6 @@ CatalogSettings catalog_settings(const Options& options) {
   CatalogSettings settings = options.catalog;
   settings.open_maps.maps = descriptors.open_maps;
   settings.kept.held_files = descriptors.held_files;
-  return settings;
-}
-
-Result<ServerSettings> server_settings(const Options& options) {
-  Result<Viewer> viewer = Viewer::with(options.viewer);
-  if (!viewer) return viewer.error();
-  ServerSettings settings = options.server;
-  settings.viewer = std::make_shared<const Viewer>(std::move(*viewer));
   return settings;
 }
 
@@ -45,7 +38,7 @@ sigset_t blocked(std::initializer_list<int> numbers) {
 void wait_for_stop(const sigset_t& signals, Reloader& reloader) {
   int signal = 0;
   for (sigwait(&signals, &signal); signal == SIGHUP; sigwait(&signals, &signal)) {
-    spdlog::info("SIGHUP: looking at the maps");
+    spdlog::info("SIGHUP: looking at the maps and the other files");
     reloader.look();
   }
   spdlog::info("stopping on {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
@@ -58,12 +51,23 @@ std::string counts(const Catalog& catalog) {
   return '(' + maps + ", " + std::to_string(catalog.left_out()) + " left out)";
 }
 
-void add_metrics(Metrics& metrics, const Reloader& reloader, const LogWriter& log) {
+std::uint64_t failures(const std::vector<std::unique_ptr<FollowedFiles>>& followed) {
+  std::uint64_t all = 0;
+  for (const auto& files : followed) all += files->failures();
+  return all;
+}
+
+void add_metrics(Metrics& metrics, const Reloader& reloader,
+                 const std::vector<std::unique_ptr<FollowedFiles>>& followed,
+                 const LogWriter& log) {
   using Kind = Metrics::Kind;
   metrics.add("milepost_reloads_total", "Looks at the directory that found a change.",
               Kind::counter, [&] { return static_cast<double>(reloader.reloads()); });
   metrics.add("milepost_reload_failures_total", "Looks at the directory that failed.",
               Kind::counter, [&] { return static_cast<double>(reloader.failures()); });
+  metrics.add("milepost_file_failures_total",
+              "Changed certificates, keys and tokens that could not be used.", Kind::counter,
+              [&] { return static_cast<double>(failures(followed)); });
   metrics.add("milepost_log_lines_dropped_total", "Lines of the log that could not be written.",
               Kind::counter, [&] { return static_cast<double>(log.dropped()); });
 }
@@ -76,8 +80,8 @@ void tell_service_manager(const std::string& state) {
 }  // namespace
 
 Status check(const Options& options) {
-  const auto server = server_settings(options);
-  if (!server) return server.error();
+  const auto setup = set_up(options);
+  if (!setup) return setup.error();
   const auto catalog =
       Catalog::open(options.maps, catalog_settings(options), [](const std::string&) {});
   if (!catalog) return catalog.error();
@@ -94,19 +98,21 @@ Status check(const Options& options) {
 
 Status serve(const Options& options, const LogWriter& log) {
   blocked({SIGHUP});  // from the start; SIGINT and SIGTERM may interrupt the opening of the maps
-  const auto settings = server_settings(options);
-  if (!settings) return settings.error();
+  const auto setup = set_up(options);
+  if (!setup) return setup.error();
   const auto opened = Catalog::open(options.maps, catalog_settings(options),
                                     [](const std::string& line) { spdlog::warn("{}", line); });
   if (!opened) return opened.error();
   const auto catalog = std::make_shared<CurrentCatalog>(*opened);
   const sigset_t signals = blocked({SIGHUP, SIGINT, SIGTERM});
-  const auto running = Server::start(catalog, *settings);
+  const auto running = Server::start(catalog, setup->settings);
   if (!running) return running.error();
   for (const std::string& address : (*running)->addresses())
     std::cout << "listening on " << address << ' ' << counts(**opened) << std::endl;
-  Reloader reloader(options.maps, catalog);
-  add_metrics((*running)->metrics(), reloader, log);
+  Reloader reloader(options.maps, catalog, {}, [&followed = setup->followed] {
+    for (const auto& files : followed) files->look();
+  });
+  add_metrics((*running)->metrics(), reloader, setup->followed, log);
   tell_service_manager("READY=1");
   wait_for_stop(signals, reloader);
   tell_service_manager("STOPPING=1");

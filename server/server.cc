@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "server/http/listener.h"
@@ -32,6 +33,10 @@ Result<std::vector<ListeningSocket>> opened_sockets(const ServerSettings& settin
                "give one, such as 127.0.0.1:8080"};
 }
 
+double seconds_since_1970(std::chrono::system_clock::time_point time) {
+  return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
 // The limits with numbers in place of 0.
 ConnectionLimits completed(ConnectionLimits limits) {
   const std::size_t most = connections_within(raise_descriptor_limit());
@@ -50,8 +55,7 @@ struct Server::Impl {
   Impl(std::shared_ptr<const CurrentCatalog> catalog, const ServerSettings& settings,
        std::vector<ListeningSocket> sockets)
       : port(sockets.front().port()),
-        shared(std::move(catalog), settings.viewer, completed(settings.limits), settings.hot_bytes,
-               settings.disk_threads, settings.disk_queue) {
+        shared(std::move(catalog), settings, completed(settings.limits)) {
     for (const ListeningSocket& socket : sockets) addresses.push_back(socket.address());
     for (unsigned i = 0; i < settings.threads; ++i) {
       workers.push_back(std::make_unique<Worker>(shared));
@@ -62,6 +66,16 @@ struct Server::Impl {
     shared.metrics.add("milepost_connections_max", "Connections that may be open.",
                        Metrics::Kind::gauge,
                        [this] { return static_cast<double>(shared.limits.connections); });
+    if (shared.tls != nullptr) add_tls_metrics();
+  }
+
+  void add_tls_metrics() {
+    shared.metrics.add("milepost_tls_handshakes_failed_total",
+                       "Connections without agreement on TLS.", Metrics::Kind::counter,
+                       [this] { return static_cast<double>(shared.failed_handshakes); });
+    shared.metrics.add("milepost_tls_certificate_expiry_seconds",
+                       "When the certificate expires, in seconds since 1970.", Metrics::Kind::gauge,
+                       [this] { return seconds_since_1970(shared.tls->now()->expires()); });
   }
 
   void start() {

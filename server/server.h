@@ -1,7 +1,6 @@
 // The tile server: serves a catalog on one or several addresses.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,22 +9,9 @@
 #include "schema/base/result.h"
 #include "server/catalog/current_catalog.h"
 #include "server/http/settings.h"
-#include "server/listen/listen_address.h"
 #include "server/metrics/metrics.h"
-#include "server/viewer/viewer.h"
 
 namespace milepost::server {
-
-struct ServerSettings {
-  std::vector<ListenAddress> listen = {{}};  // by default any free port of 127.0.0.1
-  std::vector<int> inherited = {};           // listening sockets, which the server takes over
-  unsigned threads = 1;                      // >= 1, that send and receive
-  unsigned disk_threads = 4;                 // >= 1, that read maps; as many readers are of use
-  std::size_t disk_queue = 1024;             // requests that wait for these threads: then 503
-  std::size_t hot_bytes = 64U << 20U;        // tiles and answers in memory
-  ConnectionLimits limits = {};
-  std::shared_ptr<const Viewer> viewer = nullptr;  // null: with a plain ground
-};
 
 // Handles requests on its own threads from start() to stop(). Raises the process's limit of open
 // descriptors as far as it may.

@@ -18,6 +18,8 @@ struct SourceOptions {
   std::string cache;
   std::string map;
   std::vector<std::string> keys;  // files
+  std::string token_file;
+  std::string ca_file;
   double cache_limit_mb = 1024;
 
   std::string name() const { return map.empty() ? server : map; }

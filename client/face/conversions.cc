@@ -151,6 +151,8 @@ Result<std::shared_ptr<MapSource>> open_source(const Source& source) {
   settings.connect_timeout_s = server.connect_timeout_s;
   settings.stall_timeout_s = server.stall_timeout_s;
   settings.least_bytes_per_s = server.least_bytes_per_s;
+  settings.ca_file = server.ca_file;
+  settings.token = server.token;
   for (const std::string& text : server.public_keys) {
     const milepost::Result<PublicKey> key = public_key_from(text);
     if (!key) return wrong("source", "public_keys: " + key.error().what, key.error().hint);

@@ -424,8 +424,9 @@ Result<std::shared_ptr<MapSource>> make_http_source(const HttpSourceSettings& se
 
 Result<std::shared_ptr<MapSource>> open_http_source(const HttpSourceSettings& settings) {
   HttpSourceParts parts;
-  parts.transport = make_curl_transport(
-      {settings.connect_timeout_s, settings.stall_timeout_s, settings.least_bytes_per_s});
+  parts.transport =
+      make_curl_transport({settings.connect_timeout_s, settings.stall_timeout_s,
+                           settings.least_bytes_per_s, settings.ca_file, settings.token});
   parts.sleep = sleep_until_stopped;
   return make_http_source(settings, std::move(parts));
 }

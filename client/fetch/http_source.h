@@ -22,6 +22,8 @@ struct HttpSourceSettings {
   Stopped stopped = {};            // cancels every call
   // If not empty, only builds that one of these keys has signed are used (PROTOCOL.md 3).
   std::vector<PublicKey> keys = {};
+  std::string ca_file = {};  // as in TransportSettings
+  std::string token = {};    // the same
 };
 
 // Does not contact the server yet: with a filled cache a vehicle drives without one. Errors:

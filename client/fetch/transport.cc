@@ -157,6 +157,10 @@ std::optional<Error> error_of_problem(const std::string& url, long status,
                    "ask for the map's current build"};
     case 400:
       return Error{ErrorCode::invalid_input, url, "the server rejects the request" + detail, ""};
+    case 401:
+    case 403:  // the operator may yet allow it: what is in the cache is of use until then
+      return Error{ErrorCode::unavailable, url, "the server does not allow it" + detail,
+                   "give a valid token of the server's operator"};
     case 405:
     case 413:
     case 414:
@@ -333,6 +337,14 @@ class CurlTransport : public Transport {
     curl_easy_setopt(handle, CURLOPT_LOW_SPEED_LIMIT,
                      static_cast<long>(std::max(1.0, settings_.least_bytes_per_s)));
     curl_easy_setopt(handle, CURLOPT_LOW_SPEED_TIME, static_cast<long>(stall_s));
+    curl_easy_setopt(handle, CURLOPT_ACCEPT_ENCODING, "zstd, gzip");
+    if (!settings_.ca_file.empty()) {
+      curl_easy_setopt(handle, CURLOPT_CAINFO, settings_.ca_file.c_str());
+    }
+    if (!settings_.token.empty()) {
+      curl_easy_setopt(handle, CURLOPT_HTTPAUTH, CURLAUTH_BEARER);
+      curl_easy_setopt(handle, CURLOPT_XOAUTH2_BEARER, settings_.token.c_str());
+    }
     curl_easy_setopt(handle, CURLOPT_WRITEFUNCTION, &on_body);
     curl_easy_setopt(handle, CURLOPT_WRITEDATA, &reception);
   }

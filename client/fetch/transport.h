@@ -22,8 +22,8 @@ struct HttpAnswer {
   // error names the URL: not_found (404), gone (410) and invalid_input (400 and other refusals),
   // each only if the body is application/problem+json, as a milepost server sends it; invalid_input
   // (an invalid URL); corrupt (a body beyond the limit); cancelled; unavailable (no connection, a
-  // timeout, an interrupted body, 429, 5xx, and foreign_answer for everything else); or the error
-  // of the sink.
+  // timeout, an interrupted body, 401, 403, 429, 5xx, and foreign_answer for everything else); or
+  // the error of the sink.
   Status status;
   double retry_after_s = 0;      // requested by a busy server; 0 if not
   std::uint64_t body_bytes = 0;  // received, also of an interrupted response
@@ -54,11 +54,16 @@ struct TransportSettings {
   // Aborts a response with less than least_bytes_per_s over this time; rounded up to whole seconds.
   double stall_timeout_s = 10;
   double least_bytes_per_s = 200;
+  // Certificates in PEM form by which a server is trusted over https; empty: those of the system.
+  std::string ca_file = {};
+  // The token that the server's operator gave out (RFC 6750); empty: none is sent. No other host
+  // gets it.
+  std::string token = {};
 };
 
 // A transport by libcurl: keeps connections open between requests, with one handle per concurrent
 // request; follows up to five redirects, http and https only; uses the proxies in the environment
-// variables that curl uses.
+// variables that curl uses; takes documents compressed.
 std::unique_ptr<Transport> make_curl_transport(const TransportSettings& settings);
 
 // `base` (http or https, a host, optionally a path) without trailing slashes. Errors:

@@ -10,13 +10,6 @@ namespace milepost::server {
 namespace fs = std::filesystem;
 namespace {
 
-Document catalog_document(const std::map<std::string, std::shared_ptr<const MapBuild>>& maps) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const auto& [name, map] : maps) list.push_back({{"name", name}, {"build", map->build}});
-  const nlohmann::ordered_json json = {{"maps", std::move(list)}};
-  return document_of(json.dump());
-}
-
 // Whether a file of the map is there, but cannot be served.
 bool is_left_out(const MapDirectory& directory, const std::string& map) {
   return std::ranges::any_of(directory.left_out, [&](const auto& left_out) {
@@ -26,6 +19,13 @@ bool is_left_out(const MapDirectory& directory, const std::string& map) {
 }
 
 }  // namespace
+
+Document catalog_document(const std::map<std::string, std::shared_ptr<const MapBuild>>& maps) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& [name, map] : maps) list.push_back({{"name", name}, {"build", map->build}});
+  const nlohmann::ordered_json json = {{"maps", std::move(list)}};
+  return document_of(json.dump());
+}
 
 Result<std::shared_ptr<const Catalog>> Catalog::open(const fs::path& directory,
                                                      const CatalogSettings& settings,

@@ -29,6 +29,9 @@ struct OldBuild {
   std::chrono::steady_clock::time_point until;
 };
 
+// The document of GET /v1/maps.
+Document catalog_document(const std::map<std::string, std::shared_ptr<const MapBuild>>& maps);
+
 // Immutable but for the maps in memory, which synchronize themselves: safe to share between
 // threads.
 class Catalog {

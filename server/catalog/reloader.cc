@@ -33,10 +33,11 @@ void log_changes(const Catalog& before, const Catalog& after) {
 }  // namespace
 
 Reloader::Reloader(std::filesystem::path directory, std::shared_ptr<CurrentCatalog> catalog,
-                   const ReloadSettings& settings)
+                   const ReloadSettings& settings, std::function<void()> also)
     : directory_(std::move(directory)),
       catalog_(std::move(catalog)),
       settings_(settings),
+      also_(std::move(also)),
       wake_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   Result<DirectoryWatch> watch = DirectoryWatch::open(directory_);
   if (watch) {
@@ -94,6 +95,7 @@ void Reloader::settle() {
 }
 
 void Reloader::reload() {
+  also_();
   const std::shared_ptr<const Catalog> before = catalog_->now();
   const auto after =
       before->reloaded(Clock::now(), [](const std::string& line) { spdlog::warn("{}", line); });

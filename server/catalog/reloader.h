@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -26,8 +27,10 @@ struct ReloadSettings {
 // directory that cannot be read changes nothing.
 class Reloader {
  public:
-  Reloader(std::filesystem::path directory, std::shared_ptr<CurrentCatalog> catalog,
-           const ReloadSettings& settings = {});
+  // `also` is called at each look, on the same thread: for files that are followed likewise.
+  Reloader(
+      std::filesystem::path directory, std::shared_ptr<CurrentCatalog> catalog,
+      const ReloadSettings& settings = {}, std::function<void()> also = [] {});
   ~Reloader();  // waits for the look that is under way
   Reloader(const Reloader&) = delete;
   Reloader& operator=(const Reloader&) = delete;
@@ -48,6 +51,7 @@ class Reloader {
   const std::filesystem::path directory_;
   const std::shared_ptr<CurrentCatalog> catalog_;
   const ReloadSettings settings_;
+  const std::function<void()> also_;
   std::optional<DirectoryWatch> watch_;
   bool has_failed_ = false;
   int wake_;  // an eventfd

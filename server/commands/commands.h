@@ -12,6 +12,7 @@ RunCommand add_sign(CLI::App& app);
 RunCommand add_publish(CLI::App& app);
 RunCommand add_install(CLI::App& app);
 RunCommand add_rollback(CLI::App& app);
+RunCommand add_token_command(CLI::App& app);
 
 // All of them.
 std::vector<Command> subcommands();

@@ -1,5 +1,7 @@
 #include "server/hot/prepared.h"
 
+#include <utility>
+
 #include "server/message/conditional.h"
 #include "server/message/head.h"
 
@@ -19,15 +21,20 @@ std::size_t Prepared::bytes() const {
 }
 
 PreparedAnswer prepared(Response response) {
+  std::weak_ptr<const ServedMap> map = map_of(response);
+  if (auto* tiles = std::get_if<TileList>(&response.body)) tiles->map = nullptr;
+  if (auto* cells = std::get_if<CellList>(&response.body)) cells->map = nullptr;
+  return prepared_for(std::move(response), std::move(map));
+}
+
+PreparedAnswer prepared_for(Response response, std::weak_ptr<const ServedMap> map) {
   auto answer = std::make_shared<Prepared>();
   answer->head = head_of(response);
   if (response.status == 200 && !response.header("ETag").empty()) {
     answer->unchanged = prepared(unless_known(response, response.header("ETag")));
   }
   answer->response = std::move(response);
-  answer->map = map_of(answer->response);
-  if (auto* tiles = std::get_if<TileList>(&answer->response.body)) tiles->map = nullptr;
-  if (auto* cells = std::get_if<CellList>(&answer->response.body)) cells->map = nullptr;
+  answer->map = std::move(map);
   return answer;
 }
 

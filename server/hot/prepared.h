@@ -23,6 +23,8 @@ struct Prepared {
 };
 
 PreparedAnswer prepared(Response response);
+// A response whose tiles are of this map, which it does not keep in memory.
+PreparedAnswer prepared_for(Response response, std::weak_ptr<const ServedMap> map);
 
 // The map of a response's tiles; null without.
 std::shared_ptr<const ServedMap> map_of(const Response& response);

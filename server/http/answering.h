@@ -17,11 +17,11 @@ struct Answer {
 };
 
 // The answer, if it and the first frame of its body are in memory; else without `prepared`. Never
-// blocks. HotAnswers know nothing of fields of a request: a field that changes an answer is applied
-// here and in answer_from_disk, as If-None-Match is.
-Answer answer_from_memory(const Request& request, Shared& shared);
+// blocks. HotAnswers know nothing of fields of a request and of its grant: what changes an answer
+// is applied here and in answer_from_disk.
+Answer answer_from_memory(const Request& request, const Grant& grant, Shared& shared);
 
 // Any answer, which enters the memory. May take as long as the disk takes.
-Answer answer_from_disk(const Request& request, Shared& shared);
+Answer answer_from_disk(const Request& request, const Grant& grant, Shared& shared);
 
 }  // namespace milepost::server

@@ -20,6 +20,7 @@ struct Exchange {
   std::string_view route = {};      // Response::route, of which this is
   std::string_view map = {};        // the same
   std::uint64_t tiles = 0;          // and cells in the body
+  std::string_view token = {};      // the name of a valid one
 };
 
 // Every exchange comes here, on the thread of its connection: what counts or logs requests begins

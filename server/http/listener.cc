@@ -90,11 +90,11 @@ bool Listener::accept_one(Door& door) {
   const int descriptor = ::accept4(door.socket.descriptor(), address.data(), &address.bytes,
                                    SOCK_NONBLOCK | SOCK_CLOEXEC);
   if (descriptor < 0 && !is_of_one_connection(errno)) return false;
-  if (descriptor >= 0) welcome(descriptor, address);
+  if (descriptor >= 0) welcome(descriptor, address, door);
   return true;
 }
 
-void Listener::welcome(int descriptor, const SocketAddress& address) {
+void Listener::welcome(int descriptor, const SocketAddress& address, const Door& door) {
   const int on = 1;
   if (!address.is_unix()) {
     ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
@@ -102,7 +102,9 @@ void Listener::welcome(int descriptor, const SocketAddress& address) {
   Peer peer = Peer::of(address);
   Admission::Ticket ticket = shared_.admission.enter(peer);
   const Admission::Verdict verdict = ticket.verdict();
-  Accepted accepted(descriptor, address.storage.ss_family, std::move(peer), std::move(ticket));
+  const bool through_tls = shared_.tls != nullptr && !door.socket.plain();
+  Accepted accepted(descriptor, address.storage.ss_family, through_tls, std::move(peer),
+                    std::move(ticket));
   if (verdict == Admission::Verdict::reject || verdict == Admission::Verdict::drop) {
     warn_of_rejection();
   }

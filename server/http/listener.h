@@ -37,7 +37,7 @@ class Listener {
   void accept(Door& door);
   void pause(Door& door, std::chrono::milliseconds duration);
   bool accept_one(Door& door);
-  void welcome(int descriptor, const SocketAddress& address);
+  void welcome(int descriptor, const SocketAddress& address, const Door& door);
   Worker& worker_for(Admission::Verdict verdict);
   void warn_of_rejection();
 

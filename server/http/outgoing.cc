@@ -12,10 +12,11 @@ constexpr std::size_t kKeptPieces = 16;  // memory of a connection between respo
 }  // namespace
 
 void Outgoing::begin(PreparedAnswer answer, std::shared_ptr<const ServedMap> map,
-                     std::string_view end, bool with_body) {
+                     std::string_view lines, std::string_view end, bool with_body) {
   answer_ = std::move(answer);
   map_ = std::move(map);
-  end_ = end;
+  end_ = lines;
+  end_ += end;
   frames_ = with_body ? frame_count(answer_->response) : 0;
   next_frame_ = 0;
   add(answer_->head, nullptr);
@@ -26,7 +27,8 @@ void Outgoing::begin(PreparedAnswer answer, std::shared_ptr<const ServedMap> map
 
 void Outgoing::add(Frame frame) {
   ++next_frame_;
-  const std::string_view bytes = as_text(*frame);
+  std::string_view bytes = as_text(*frame);
+  if (const auto& part = answer_->response.part) bytes = bytes.substr(part->first, part->bytes);
   add(bytes, std::move(frame));
 }
 

@@ -18,10 +18,10 @@ namespace milepost::server {
 // Not safe to use from several threads at once.
 class Outgoing {
  public:
-  // `map`: of the body's frames; null without. `end` completes the head (HeadEnds) and is copied.
-  // REQUIRES: complete().
-  void begin(PreparedAnswer answer, std::shared_ptr<const ServedMap> map, std::string_view end,
-             bool with_body);
+  // `map`: of the body's frames; null without. `lines` and then `end` (HeadEnds) complete the head,
+  // and are copied. REQUIRES: complete().
+  void begin(PreparedAnswer answer, std::shared_ptr<const ServedMap> map, std::string_view lines,
+             std::string_view end, bool with_body);
   bool begun() const { return answer_ != nullptr; }
   // REQUIRES: begun(), until end().
   const PreparedAnswer& answer() const { return answer_; }

@@ -1,9 +1,10 @@
 #include "server/http/plain_request.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
+
+#include "server/message/letters.h"
 
 namespace milepost::server {
 namespace {
@@ -43,53 +44,74 @@ bool take_text(std::string_view& text, std::string_view expected) {
   return true;
 }
 
-// `lower` is in lower case.
-bool is_named(std::string_view name, std::string_view lower) {
-  return name.size() == lower.size() &&
-         std::equal(name.begin(), name.end(), lower.begin(),
-                    [](char c, char l) { return (c >= 'A' && c <= 'Z' ? c + 32 : c) == l; });
-}
-
 // Fields that change where a request ends, or what it asks of the connection.
 bool is_of_framing(std::string_view name) {
   switch (name.size()) {
     case 2:
-      return is_named(name, "te");
+      return equals_lower(name, "te");
     case 6:
-      return is_named(name, "expect");
+      return equals_lower(name, "expect");
     case 7:
-      return is_named(name, "upgrade") || is_named(name, "trailer");
+      return equals_lower(name, "upgrade") || equals_lower(name, "trailer");
     case 14:
-      return is_named(name, "content-length");
+      return equals_lower(name, "content-length");
     case 16:
-      return is_named(name, "proxy-connection");
+      return equals_lower(name, "proxy-connection");
     case 17:
-      return is_named(name, "transfer-encoding");
+      return equals_lower(name, "transfer-encoding");
     default:
       return false;
+  }
+}
+
+// The member of a request that has the value of a field; null if none has.
+std::string Request::*member_for(std::string_view name) {
+  switch (name.size()) {
+    case 5:
+      return equals_lower(name, "range") ? &Request::range : nullptr;
+    case 6:
+      return equals_lower(name, "origin") ? &Request::origin : nullptr;
+    case 8:
+      return equals_lower(name, "if-range") ? &Request::if_range : nullptr;
+    case 13:
+      if (equals_lower(name, "if-none-match")) return &Request::if_none_match;
+      return equals_lower(name, "authorization") ? &Request::authorization : nullptr;
+    case 15:
+      return equals_lower(name, "accept-encoding") ? &Request::accept_encoding : nullptr;
+    default:
+      return nullptr;
   }
 }
 
 // What the fields of a request say, each at most once.
 struct PlainFields {
   bool host = false;
-  bool tag = false;
   bool connection = false;
 
   // False if the request is not plain.
   bool take(std::string_view name, std::string_view value, Incoming& incoming) {
-    if (is_named(name, "host")) return !std::exchange(host, true);
-    if (is_named(name, "if-none-match")) {
-      incoming.request.if_none_match = value;
-      return !std::exchange(tag, true);
+    if (equals_lower(name, "host")) return !std::exchange(host, true);
+    if (std::string Request::*member = member_for(name)) {
+      std::string& taken = incoming.request.*member;
+      if (!taken.empty() || value.empty()) return false;
+      taken = value;
+      return true;
     }
-    if (is_named(name, "connection")) {
-      incoming.keep_alive = is_named(value, "keep-alive");
-      return !std::exchange(connection, true) && (incoming.keep_alive || is_named(value, "close"));
+    if (equals_lower(name, "connection")) {
+      incoming.keep_alive = equals_lower(value, "keep-alive");
+      return !std::exchange(connection, true) &&
+             (incoming.keep_alive || equals_lower(value, "close"));
     }
     return !is_of_framing(name);
   }
 };
+
+void clear_fields(Request& request) {
+  for (std::string* field : {&request.if_none_match, &request.if_range, &request.range,
+                             &request.accept_encoding, &request.authorization, &request.origin}) {
+    field->clear();
+  }
+}
 
 bool take_request_line(std::string_view& rest, Incoming& incoming) {
   if (take_text(rest, "GET ")) {
@@ -119,7 +141,7 @@ bool take_field(std::string_view& rest, PlainFields& fields, Incoming& incoming)
 std::size_t take_plain_request(std::string_view bytes, const ConnectionLimits& limits,
                                Incoming& incoming) {
   std::string_view rest = bytes;
-  incoming.request.if_none_match.clear();
+  clear_fields(incoming.request);
   incoming.http_version = 11;
   incoming.keep_alive = true;
   incoming.refusal.reset();

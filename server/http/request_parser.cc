@@ -21,6 +21,8 @@ constexpr const char* kNoLength =
     "the request's Content-Length is not one whole number; send it once, in decimal digits";
 constexpr const char* kTwoEncodings =
     "the request's Transfer-Encoding is given more than once; send it once, as 'chunked'";
+constexpr const char* kTwoAuthorizations =
+    "the request's Authorization is given more than once; send it once";
 constexpr const char* kUnknownEncoding =
     "the request has a Transfer-Encoding other than 'chunked'; send the body in chunks, or with "
     "Content-Length";
@@ -32,6 +34,17 @@ std::string all_values(const Fields& fields, http::field name) {
     joined.append(joined.empty() ? "" : ", ").append(std::string(field->value()));
   }
   return joined;
+}
+
+Request request_of(const Fields& fields) {
+  return {.method = std::string(fields.method_string()),
+          .target = std::string(fields.target()),
+          .if_none_match = all_values(fields, http::field::if_none_match),
+          .if_range = all_values(fields, http::field::if_range),
+          .range = all_values(fields, http::field::range),
+          .accept_encoding = all_values(fields, http::field::accept_encoding),
+          .authorization = std::string(fields[http::field::authorization]),
+          .origin = all_values(fields, http::field::origin)};
 }
 
 bool is_whole_number(boost::beast::string_view text) {
@@ -136,8 +149,8 @@ void RequestParser::end_head() {
   }
   if (const char* fault = fault_of_framing(fields)) return refuse(400, fault);
   if (const char* fault = fault_of_host(fields)) return refuse(400, fault);
-  incoming_.request = {std::string(fields.method_string()), std::string(fields.target()),
-                       all_values(fields, http::field::if_none_match)};
+  if (fields.count(http::field::authorization) > 1) return refuse(400, kTwoAuthorizations);
+  incoming_.request = request_of(fields);
   incoming_.http_version = fields.version();
   incoming_.keep_alive = fields.keep_alive();
 }

@@ -2,14 +2,15 @@
 
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
+#include <span>
 #include <utility>
 
 #include <boost/asio/post.hpp>
+
+#include "server/message/cross_origin.h"
 
 namespace milepost::server {
 namespace {
@@ -38,7 +39,12 @@ const PreparedAnswer& request_timed_out() {
   return answer;
 }
 
-bool is_to_be_repeated(int error) { return error == EAGAIN || error == EINTR; }
+using State = Progress::State;
+
+iovec piece_of(std::string_view bytes) {
+  // Sending does not change them. NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+  return {const_cast<char*>(bytes.data()), bytes.size()};
+}
 
 }  // namespace
 
@@ -46,7 +52,7 @@ Session::Session(Worker& worker, Accepted accepted)
     : worker_(worker),
       shared_(worker.shared()),
       socket_(worker.context()),
-      peer_(std::move(accepted.peer.host)),
+      peer_(std::move(accepted.peer)),
       ticket_(std::move(accepted.ticket)),
       reader_(shared_.limits) {
   error_code error;
@@ -54,19 +60,52 @@ Session::Session(Worker& worker, Accepted accepted)
   socket_.assign(net::generic::stream_protocol(accepted.family, 0), descriptor, error);
   if (error) ::close(descriptor);
   if (!error) socket_.native_non_blocking(true, error);
-  closed_ = bool(error);
+  if (!error) open_channel(accepted);
+  closed_ = channel_ == nullptr;
+}
+
+void Session::open_channel(const Accepted& accepted) {
+  const int descriptor = socket_.native_handle();
+  channel_ = accepted.through_tls ? Channel::tls(descriptor, *shared_.tls->now())
+                                  : Channel::plain(descriptor);
 }
 
 void Session::start() {
-  if (!closed_) await_request();
+  if (!closed_) establish();
 }
 
 void Session::reject() {
-  if (!closed_) refuse(too_many_connections());
+  rejected_ = true;
+  start();
+}
+
+void Session::establish() {
+  const Progress progress = channel_->establish();
+  switch (progress.state) {
+    case State::done:
+      return end_establishing();
+    case State::ended:
+      ++shared_.failed_handshakes;
+      return close();
+    case State::needs_readable:
+      await_readable();
+      break;
+    case State::needs_writable:
+      await_writable();
+      break;
+  }
+  // At first the client is silent; then it has as long as for a request.
+  if (!in_request_) worker_.wait(*this, worker_.finishing() ? Phase::last : Phase::idle);
+}
+
+void Session::end_establishing() {
+  established_ = true;
+  in_request_ = false;
+  rejected_ ? refuse(too_many_connections()) : await_request();
 }
 
 void Session::expire() {
-  if (phase == Phase::request) {
+  if (phase == Phase::request && established_) {
     refuse(request_timed_out());
   } else if (phase == Phase::last && has_bytes()) {
     worker_.wait(*this, Phase::last);
@@ -76,6 +115,7 @@ void Session::expire() {
 }
 
 bool Session::has_bytes() const {
+  if (channel_->holds_bytes()) return true;
   int bytes = 0;
   // Asio has no const native_handle(). NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
   const int socket = const_cast<Socket&>(socket_).native_handle();
@@ -92,23 +132,60 @@ void Session::close() {
   worker_.forget(*this);
 }
 
-void Session::await_bytes() {
-  if (awaiting_bytes_) return;
-  awaiting_bytes_ = true;
+void Session::await_readable() {
+  if (awaiting_readable_) return;
+  awaiting_readable_ = true;
   socket_.async_wait(Socket::wait_read, [self = shared_from_this()](const error_code&) {
-    self->awaiting_bytes_ = false;
-    if (!self->closed_ && !self->responding_) self->receive();
+    self->awaiting_readable_ = false;
+    if (!self->closed_) self->on_readable();
+  });
+}
+
+void Session::await_writable() {
+  if (awaiting_writable_) return;
+  awaiting_writable_ = true;
+  socket_.async_wait(Socket::wait_write, [self = shared_from_this()](const error_code&) {
+    self->awaiting_writable_ = false;
+    if (!self->closed_) self->on_writable();
+  });
+}
+
+void Session::on_readable() {
+  if (established_) return responding_ ? void() : receive();
+  if (!in_request_) worker_.wait(*this, Phase::request);
+  in_request_ = true;
+  establish();
+}
+
+void Session::on_writable() {
+  if (!established_) return establish();
+  if (!responding_) return receive();
+  send();
+  serve();
+}
+
+void Session::await_bytes() {
+  if (!channel_->holds_bytes()) return await_readable();
+  net::post(worker_.context(), [self = shared_from_this()] {
+    if (!self->closed_) self->on_readable();
   });
 }
 
 void Session::receive() {
   auto& scratch = worker_.scratch();
-  const ssize_t received = ::recv(socket_.native_handle(), scratch.data(), scratch.size(), 0);
-  if (received < 0 && is_to_be_repeated(errno)) return await_bytes();
-  if (received <= 0) return close();
-  const auto bytes = static_cast<std::size_t>(received);
-  if (phase == Phase::linger) return discard(bytes);
-  reader_.add({scratch.data(), bytes});
+  const Progress received = channel_->receive(scratch);
+  switch (received.state) {
+    case State::done:
+      break;
+    case State::needs_readable:
+      return await_readable();
+    case State::needs_writable:
+      return await_writable();
+    case State::ended:
+      return close();
+  }
+  if (phase == Phase::linger) return discard(received.bytes);
+  reader_.add({scratch.data(), received.bytes});
   serve();
 }
 
@@ -140,7 +217,7 @@ void Session::serve() {
 void Session::await_request() {
   if (reader_.wants_continue()) {
     // There is room for it: nothing else is being sent.
-    ::send(socket_.native_handle(), kContinue.data(), kContinue.size(), MSG_NOSIGNAL);
+    channel_->send(std::array{piece_of(kContinue)});
   }
   if (reader_.empty()) {
     worker_.wait(*this, worker_.finishing() ? Phase::last : Phase::idle);
@@ -155,16 +232,19 @@ void Session::answer() {
   begun_ = Clock::now();
   responding_ = true;
   if (incoming_.refusal) return respond({prepared(std::move(*incoming_.refusal)), {}, nullptr});
-  Answer hot = answer_from_memory(incoming_.request, shared_);
+  grant_ = shared_.access.grant(incoming_.request.authorization);
+  const auto wait = shared_.access.wait(grant_, peer_);
+  if (wait.count() > 0) return respond({prepared(too_many_requests(wait)), {}, nullptr});
+  Answer hot = answer_from_memory(incoming_.request, grant_, shared_);
   if (hot.prepared) return respond(std::move(hot));
   answer_later();
 }
 
 void Session::answer_later() {
-  const bool accepted =
-      shared_.disk.try_run([self = shared_from_this(), request = incoming_.request]() mutable {
+  const bool accepted = shared_.disk.try_run(
+      [self = shared_from_this(), request = incoming_.request, grant = grant_]() mutable {
         Worker& worker = self->worker_;
-        Answer answer = answer_from_disk(request, self->shared_);
+        Answer answer = answer_from_disk(request, grant, self->shared_);
         // The connection must end on its own thread: nothing of it stays here.
         net::post(worker.context(), [self = std::move(self), answer = std::move(answer)]() mutable {
           if (self->closed_) return;
@@ -180,7 +260,8 @@ void Session::answer_later() {
 void Session::refuse(PreparedAnswer answer) {
   begun_ = Clock::now();
   responding_ = true;
-  incoming_ = {{"-", "-", {}}, 11, false, {}};
+  incoming_ = {{"-", "-"}, 11, false, {}};
+  grant_ = Grant::without_token();
   respond({std::move(answer), {}, nullptr});
 }
 
@@ -190,9 +271,11 @@ void Session::respond(Answer answer) {
   keep_alive_ = incoming_.keep_alive && !last;
   broken_ = false;
   sent_bytes_ = 0;
-  outgoing_.begin(std::move(answer.prepared), std::move(answer.map),
-                  worker_.head_end(incoming_.http_version, keep_alive_),
-                  incoming_.request.method != "HEAD");
+  const Request& request = incoming_.request;
+  const std::string lines =
+      cross_origin_lines(shared_.allowed_origins, request.origin, request.method);
+  outgoing_.begin(std::move(answer.prepared), std::move(answer.map), lines,
+                  worker_.head_end(incoming_.http_version, keep_alive_), request.method != "HEAD");
   for (Frame& frame : answer.frames) outgoing_.add(std::move(frame));
   send();
 }
@@ -223,20 +306,13 @@ void Session::send() {
 // False if nothing can be sent now.
 bool Session::send_some() {
   std::array<iovec, 64> buffers;
-  msghdr message{};
-  message.msg_iov = buffers.data();
-  message.msg_iovlen = outgoing_.gather(buffers);
-  const ssize_t sent = ::sendmsg(socket_.native_handle(), &message, MSG_NOSIGNAL);
-  if (sent < 0 && is_to_be_repeated(errno)) {
-    await_room();
-    return false;
-  }
-  if (sent < 0) {
-    close();
-    return false;
-  }
-  outgoing_.sent(static_cast<std::size_t>(sent));
-  sent_bytes_ += static_cast<std::size_t>(sent);
+  const std::size_t count = outgoing_.gather(buffers);
+  const Progress progress = channel_->send(std::span(buffers).first(count));
+  if (progress.state == State::needs_writable) await_room();
+  if (progress.state == State::ended || progress.state == State::needs_readable) close();
+  if (progress.state != State::done) return false;
+  outgoing_.sent(progress.bytes);
+  sent_bytes_ += progress.bytes;
   return true;
 }
 
@@ -245,14 +321,7 @@ void Session::await_room() {
     worker_.wait(*this, Phase::send);
     sent_bytes_ = 0;
   }
-  if (awaiting_room_) return;
-  awaiting_room_ = true;
-  socket_.async_wait(Socket::wait_write, [self = shared_from_this()](const error_code&) {
-    self->awaiting_room_ = false;
-    if (self->closed_) return;
-    self->send();
-    self->serve();
-  });
+  await_writable();
 }
 
 void Session::add_hot_frames() {
@@ -284,7 +353,7 @@ void Session::add_frames(Result<std::vector<Frame>> frames) {
     spdlog::error("{}", frames.error().line());
     broken_ = true;
   }
-  if (!awaiting_room_) send();
+  if (!awaiting_writable_) send();
   serve();
 }
 
@@ -298,7 +367,7 @@ void Session::end_response() {
 // Closes so that the client receives the last response even if it is still sending: closing a
 // socket with unread bytes resets the connection, which may discard the response.
 void Session::linger() {
-  ::shutdown(socket_.native_handle(), SHUT_WR);
+  channel_->end_sending();
   worker_.wait(*this, Phase::linger);
   await_bytes();
 }
@@ -306,9 +375,10 @@ void Session::linger() {
 void Session::report(bool aborted) const {
   if (!outgoing_.begun()) return;
   const Response& response = outgoing_.response();
-  observe({peer_, incoming_.request.method, incoming_.request.target, response.status,
+  const TokenEntry* token = grant_.token();
+  observe({peer_.host, incoming_.request.method, incoming_.request.target, response.status,
            response.content_length(), Clock::now() - begun_, aborted, response.route, response.map,
-           frame_count(response)},
+           frame_count(response), token == nullptr ? std::string_view() : token->name},
           shared_.metrics);
 }
 

@@ -1,10 +1,16 @@
 // What all threads of a server use together.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "server/access/access.h"
 #include "server/catalog/current_catalog.h"
+#include "server/channel/tls_context.h"
 #include "server/hot/hot_answers.h"
 #include "server/hot/hot_frames.h"
 #include "server/http/disk_pool.h"
@@ -17,22 +23,27 @@
 namespace milepost::server {
 
 struct Shared {
-  // `page`: null for a plain one. `hot_bytes`: for tiles, cells and answers together. REQUIRES: no
-  // limit is 0.
-  Shared(std::shared_ptr<const CurrentCatalog> served, std::shared_ptr<const Viewer> page,
-         const ConnectionLimits& chosen, std::size_t hot_bytes, unsigned disk_threads,
-         std::size_t disk_queue)
+  // `completed`: the limits of `settings`, completed. REQUIRES: no limit is 0.
+  Shared(std::shared_ptr<const CurrentCatalog> served, const ServerSettings& settings,
+         const ConnectionLimits& completed)
       : catalog(std::move(served)),
-        viewer(std::move(page)),
-        limits(chosen),
-        admission(chosen.connections, chosen.per_address),
-        answers(hot_bytes / 4),
-        frames(hot_bytes - hot_bytes / 4),
-        disk(disk_threads, disk_queue) {}
+        viewer(settings.viewer),
+        tls(settings.tls),
+        allowed_origins(settings.allowed_origins),
+        access(settings.tokens, settings.rate),
+        limits(completed),
+        admission(completed.connections, completed.per_address),
+        answers(settings.hot_bytes / 4),
+        frames(settings.hot_bytes - settings.hot_bytes / 4),
+        disk(settings.disk_threads, settings.disk_queue) {}
 
   const std::shared_ptr<const CurrentCatalog> catalog;
   Metrics metrics{path_patterns()};
-  const std::shared_ptr<const Viewer> viewer;
+  const std::shared_ptr<const Viewer> viewer;   // null: with a plain ground
+  const std::shared_ptr<const CurrentTls> tls;  // null: without
+  std::atomic<std::uint64_t> failed_handshakes = 0;
+  const std::vector<std::string> allowed_origins;  // whose pages may read what is sent
+  Access access;
   const ConnectionLimits limits;
   Admission admission;
   HotAnswers answers;

@@ -84,8 +84,8 @@ void Worker::take(Accepted accepted) {
   if (ticket.verdict() == Admission::Verdict::replace && !close_longest_idle()) ticket.reject();
   const Admission::Verdict verdict = ticket.verdict();
   if (verdict == Admission::Verdict::drop) return;
-  const auto connection = std::make_shared<Session>(*this, std::move(accepted));
-  verdict == Admission::Verdict::reject ? connection->reject() : connection->start();
+  const auto session = std::make_shared<Session>(*this, std::move(accepted));
+  verdict == Admission::Verdict::reject ? session->reject() : session->start();
 }
 
 // False if there is none.

@@ -6,11 +6,16 @@
 
 namespace milepost::server {
 
-Accepted::Accepted(int descriptor, int of_family, Peer from, Admission::Ticket place)
-    : family(of_family), peer(std::move(from)), ticket(std::move(place)), descriptor_(descriptor) {}
+Accepted::Accepted(int descriptor, int of_family, bool is_tls, Peer from, Admission::Ticket place)
+    : family(of_family),
+      through_tls(is_tls),
+      peer(std::move(from)),
+      ticket(std::move(place)),
+      descriptor_(descriptor) {}
 
 Accepted::Accepted(Accepted&& other) noexcept
     : family(other.family),
+      through_tls(other.through_tls),
       peer(std::move(other.peer)),
       ticket(std::move(other.ticket)),
       descriptor_(other.release()) {}

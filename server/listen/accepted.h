@@ -10,7 +10,7 @@ namespace milepost::server {
 class Accepted {
  public:
   // Takes the descriptor over. `of_family` is that of its address.
-  Accepted(int descriptor, int of_family, Peer from, Admission::Ticket place);
+  Accepted(int descriptor, int of_family, bool is_tls, Peer from, Admission::Ticket place);
   Accepted(Accepted&& other) noexcept;
   Accepted& operator=(Accepted&&) = delete;
   Accepted(const Accepted&) = delete;
@@ -20,6 +20,7 @@ class Accepted {
   int release();  // the descriptor, which is the caller's then
 
   int family;
+  bool through_tls;
   Peer peer;
   Admission::Ticket ticket;
 

@@ -105,6 +105,7 @@ Result<std::vector<ListeningSocket>> ListeningSocket::open(const ListenAddress& 
       continue;
     }
     socket.name();
+    socket.plain_ = address.plain;
     sockets.push_back(std::move(socket));
   }
   if (sockets.empty()) return absent.error();
@@ -145,12 +146,14 @@ ListeningSocket::ListeningSocket(ListeningSocket&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       address_(std::move(other.address_)),
       port_(other.port_),
+      plain_(other.plain_),
       created_path_(std::exchange(other.created_path_, {})) {}
 
 ListeningSocket& ListeningSocket::operator=(ListeningSocket&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
   std::swap(address_, other.address_);
   std::swap(port_, other.port_);
+  std::swap(plain_, other.plain_);
   std::swap(created_path_, other.created_path_);
   return *this;
 }
@@ -166,6 +169,7 @@ void ListeningSocket::name() {
   ::getsockname(descriptor_, address.data(), &address.bytes);
   address_ = address.text();
   port_ = address.port();
+  plain_ = address.is_unix();
 }
 
 }  // namespace milepost::server

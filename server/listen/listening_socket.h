@@ -32,6 +32,7 @@ class ListeningSocket {
   int descriptor() const { return descriptor_; }
   const std::string& address() const { return address_; }  // "127.0.0.1:8080", "unix:/path"
   std::uint16_t port() const { return port_; }             // 0 for a unix socket
+  bool plain() const { return plain_; }                    // never TLS: a unix socket, or so chosen
 
  private:
   explicit ListeningSocket(int descriptor);
@@ -41,6 +42,7 @@ class ListeningSocket {
   int descriptor_ = -1;
   std::string address_;
   std::uint16_t port_ = 0;
+  bool plain_ = false;
   std::string created_path_;  // of a unix socket
 };
 

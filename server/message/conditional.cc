@@ -35,8 +35,11 @@ Response unless_known(Response response, std::string_view if_none_match) {
   unchanged.status = 304;
   unchanged.route = response.route;
   unchanged.map = response.map;
+  unchanged.guard = response.guard;
   unchanged.headers = {{"ETag", tag},
                        {"Cache-Control", std::string(response.header("Cache-Control"))}};
+  const std::string vary(response.header("Vary"));
+  if (!vary.empty()) unchanged.headers.emplace_back("Vary", vary);
   return unchanged;
 }
 

@@ -20,7 +20,7 @@ std::string head_of(const Response& response) {
   head += std::string(http::obsolete_reason(http::int_to_status(response.status))) + "\r\n";
   append_field(head, "Server", "milepost/" MILEPOST_VERSION);
   for (const auto& [name, value] : response.headers) append_field(head, name, value);
-  if (response.status != 304) {
+  if (response.status != 204 && response.status != 304) {
     append_field(head, "Content-Length", std::to_string(response.content_length()));
   }
   return head;

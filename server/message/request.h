@@ -6,9 +6,17 @@
 namespace milepost::server {
 
 struct Request {
-  std::string method;         // as received: "GET"
-  std::string target;         // as received: path and query, percent-encoded
-  std::string if_none_match;  // the field's value, empty if absent
+  std::string method;  // as received: "GET"
+  std::string target;  // as received: path and query, percent-encoded
+  // The values of fields, empty if absent:
+  std::string if_none_match = {};
+  std::string if_range = {};
+  std::string range = {};
+  std::string accept_encoding = {};
+  std::string authorization = {};
+  std::string origin = {};
+
+  friend bool operator==(const Request&, const Request&) = default;
 };
 
 }  // namespace milepost::server

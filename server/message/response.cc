@@ -11,6 +11,10 @@ std::string title_of(unsigned status) {
   switch (status) {
     case 400:
       return "Bad Request";
+    case 401:
+      return "Unauthorized";
+    case 403:
+      return "Forbidden";
     case 404:
       return "Not Found";
     case 405:
@@ -23,6 +27,10 @@ std::string title_of(unsigned status) {
       return "Content Too Large";
     case 414:
       return "URI Too Long";
+    case 416:
+      return "Range Not Satisfiable";
+    case 429:
+      return "Too Many Requests";
     case 431:
       return "Request Header Fields Too Large";
     case 503:
@@ -66,6 +74,7 @@ std::string_view Response::header(std::string_view name) const {
 }
 
 std::uint64_t Response::content_length() const {
+  if (part) return part->bytes;
   if (const auto* text = std::get_if<SharedText>(&body)) return *text ? (*text)->size() : 0;
   if (const auto* list = std::get_if<TileList>(&body)) return bytes_of(list->tiles);
   return bytes_of(std::get<CellList>(body).cells);

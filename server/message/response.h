@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "schema/base/result.h"
 #include "server/catalog/served_map.h"
+#include "server/message/byte_range.h"
 
 namespace milepost::server {
 
@@ -32,12 +34,22 @@ struct CellList {
   std::vector<const CellEntry*> cells;  // entries of `map`, ascending by cell
 };
 
+// Who may have a response, where tokens are asked for.
+enum class Guard {
+  open,       // everybody
+  map,        // whose token is for the map
+  catalog,    // whose token is valid, with what it is for
+  operators,  // whose token is for everything
+};
+
 struct Response {
   unsigned status = 200;
   std::vector<std::pair<std::string, std::string>> headers;  // without Content-Length
   std::variant<SharedText, TileList, CellList> body;         // a null text is an empty body
   std::string_view route;  // the pattern of handle.h that fitted; constant text. Empty: none
   std::string map;         // that the path names, if it fitted
+  Guard guard = Guard::open;
+  std::optional<ByteRange> part = {};  // of a body of tiles or cells that is sent; none: all of it
 
   // The value of a header, empty if absent. `name` is spelled as when it was added.
   std::string_view header(std::string_view name) const;

@@ -56,4 +56,9 @@ Response immutable_cells(CellList cells, const std::string& digest) {
   return frames(std::move(cells), digest);
 }
 
+Response divisible(Response response) {
+  response.headers.emplace_back("Accept-Ranges", "bytes");
+  return response;
+}
+
 }  // namespace milepost::server

@@ -21,6 +21,8 @@ Response immutable_json(const Document& document);
 // Stored tiles or cells, which never change under their URL. `digest` covers all of them.
 Response immutable_tiles(TileList tiles, const std::string& digest);
 Response immutable_cells(CellList cells, const std::string& digest);
+// The same response, of which parts may be asked for, too.
+Response divisible(Response response);
 
 // The digest that covers entries of an index: that of their digests, one after the other.
 template <class Entry>

@@ -67,7 +67,7 @@ Result<Response> answer_cell(const Call& call) {
   if (!index) return index.error();
   const Result<const CellEntry*> cell = find_cell(**index, call.path[3]);
   if (!cell) return cell.error();
-  return immutable_cells({*map, call.path[2], {*cell}}, (*cell)->digest);
+  return divisible(immutable_cells({*map, call.path[2], {*cell}}, (*cell)->digest));
 }
 
 }  // namespace milepost::server

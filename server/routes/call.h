@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "server/access/grant.h"
 #include "server/catalog/catalog.h"
 #include "server/message/target.h"
 #include "server/metrics/metrics.h"
@@ -18,6 +19,7 @@ struct Call {
   const Query& query;             // only parameters of the route, none repeated
   const Viewer& viewer;
   const Metrics& metrics;
+  const Grant& grant;  // of the request, which is for the route
 };
 
 }  // namespace milepost::server

@@ -1,11 +1,18 @@
 // Routes to the prepared documents of the catalog.
+#include <map>
+
 #include "server/routes/answers.h"
 #include "server/routes/lookup.h"
 #include "server/routes/routes.h"
 
 namespace milepost::server {
 
-Result<Response> answer_maps(const Call& call) { return current_json(call.catalog.document()); }
+Result<Response> answer_maps(const Call& call) {
+  if (call.grant.is_for_everything()) return current_json(call.catalog.document());
+  auto maps = call.catalog.maps();
+  std::erase_if(maps, [&](const auto& map) { return !call.grant.is_for(map.first); });
+  return current_json(catalog_document(maps));
+}
 
 Result<Response> answer_map(const Call& call) {
   const Result<std::shared_ptr<const ServedMap>> map = find_map(call.catalog, call.path[0]);

@@ -6,6 +6,7 @@
 
 #include "server/message/conditional.h"
 #include "server/message/target.h"
+#include "server/routes/guard.h"
 #include "server/routes/routes.h"
 
 namespace milepost::server {
@@ -13,38 +14,45 @@ namespace {
 
 struct Route {
   std::string_view pattern;
+  Guard guard;
   std::vector<std::string_view> parameters;  // of the query
   Result<Response> (*answer)(const Call&);
 };
 
 const std::vector<Route>& routes() {
+  using enum Guard;
   static const std::vector<Route> table = {
-      {"/healthz", {}, answer_health},
-      {"/readyz", {}, answer_ready},
-      {"/metrics", {}, answer_metrics},
-      {"/openapi.yaml", {}, answer_openapi},
-      {"/", {}, answer_page},
-      {"/viewer/{release}/{file}", {}, answer_viewer_file},
+      {"/healthz", open, {}, answer_health},
+      {"/readyz", open, {}, answer_ready},
+      {"/metrics", operators, {}, answer_metrics},
+      {"/openapi.yaml", open, {}, answer_openapi},
+      {"/", open, {}, answer_page},
+      {"/viewer/{release}/{file}", open, {}, answer_viewer_file},
       {"/viewer/maps/{map}/builds/{build}/segments/{segment}/landmarks/{index}",
+       map,
        {},
        answer_viewer_landmarks},
-      {"/viewer/maps/{map}/builds/{build}/walls/{cell}", {}, answer_viewer_walls},
-      {"/v1/maps", {}, answer_maps},
-      {"/v1/maps/{map}", {}, answer_map},
-      {"/v1/maps/{map}/changes", {"from"}, answer_changes},
-      {"/v1/segments", {"near", "radius_m"}, answer_segments_near},
-      {"/v1/maps/{map}/builds/{build}/manifest", {}, answer_manifest},
-      {"/v1/maps/{map}/builds/{build}/manifest.sig", {}, answer_signature},
-      {"/v1/maps/{map}/builds/{build}/map", {}, answer_summary},
-      {"/v1/maps/{map}/builds/{build}/mapping", {}, answer_mapping},
-      {"/v1/maps/{map}/builds/{build}/segments/{segment}", {}, answer_segment},
+      {"/viewer/maps/{map}/builds/{build}/walls/{cell}", map, {}, answer_viewer_walls},
+      {"/v1/maps", catalog, {}, answer_maps},
+      {"/v1/maps/{map}", map, {}, answer_map},
+      {"/v1/maps/{map}/changes", map, {"from"}, answer_changes},
+      {"/v1/segments", catalog, {"near", "radius_m"}, answer_segments_near},
+      {"/v1/maps/{map}/builds/{build}/manifest", map, {}, answer_manifest},
+      {"/v1/maps/{map}/builds/{build}/manifest.sig", map, {}, answer_signature},
+      {"/v1/maps/{map}/builds/{build}/map", map, {}, answer_summary},
+      {"/v1/maps/{map}/builds/{build}/mapping", map, {}, answer_mapping},
+      {"/v1/maps/{map}/builds/{build}/segments/{segment}", map, {}, answer_segment},
       {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles",
+       map,
        {"layer", "from_m", "to_m"},
        answer_tile_range},
-      {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles/{layer}/{index}", {}, answer_tile},
-      {"/v1/maps/{map}/builds/{build}/areas", {}, answer_areas},
-      {"/v1/maps/{map}/builds/{build}/areas/{layer}", {"bbox"}, answer_cell_range},
-      {"/v1/maps/{map}/builds/{build}/areas/{layer}/{cell}", {}, answer_cell},
+      {"/v1/maps/{map}/builds/{build}/segments/{segment}/tiles/{layer}/{index}",
+       map,
+       {},
+       answer_tile},
+      {"/v1/maps/{map}/builds/{build}/areas", map, {}, answer_areas},
+      {"/v1/maps/{map}/builds/{build}/areas/{layer}", map, {"bbox"}, answer_cell_range},
+      {"/v1/maps/{map}/builds/{build}/areas/{layer}/{cell}", map, {}, answer_cell},
   };
   return table;
 }
@@ -67,16 +75,30 @@ std::optional<std::vector<std::string>> fit(std::string_view pattern,
   return pattern.empty() ? std::optional(std::move(values)) : std::nullopt;
 }
 
+constexpr const char* kMethods = "GET, HEAD, OPTIONS";
+
 Response method_not_allowed(const std::string& method) {
-  Response response = problem(405, "method " + method + ": is not allowed here; use GET or HEAD");
-  response.headers.emplace_back("Allow", "GET, HEAD");
+  Response response =
+      problem(405, "method " + method + ": is not allowed here; use GET, HEAD or OPTIONS");
+  response.headers.emplace_back("Allow", kMethods);
   return response;
 }
 
-Response answer(const Route& route, const Request& request, const Call& call) {
+// To OPTIONS (RFC 9110, section 9.3.7).
+Response methods() {
+  Response response;
+  response.status = 204;
+  response.headers = {{"Allow", kMethods}};
+  return response;
+}
+
+Response answer(const Route& route, const std::string& map, const Request& request,
+                const Call& call) {
+  if (request.method == "OPTIONS") return methods();
   if (request.method != "GET" && request.method != "HEAD") {
     return method_not_allowed(request.method);
   }
+  if (auto refused = refusal(call.grant, route.guard, map)) return std::move(*refused);
   const Status allowed = call.query.allow_only(route.parameters);
   if (!allowed) return problem(allowed.error());
   Result<Response> response = route.answer(call);
@@ -92,11 +114,12 @@ const Metrics& no_metrics() {
 }
 
 Response handle(const Request& request, const Catalog& catalog, const Viewer& viewer,
-                const Metrics& metrics) {
+                const Metrics& metrics, const Grant& grant) {
   if (request.target.size() > kMaxTargetBytes) {
     return problem(414, "the URL is longer than " + std::to_string(kMaxTargetBytes) +
                             " bytes; no URL of this server is");
   }
+  if (request.method == "OPTIONS" && request.target == "*") return methods();
   const Result<Target> target = Target::parse(request.target);
   if (!target) return problem(target.error());
   for (const Route& route : routes()) {
@@ -104,9 +127,10 @@ Response handle(const Request& request, const Catalog& catalog, const Viewer& vi
     if (!values) continue;
     const bool names_map = route.pattern.find("/maps/{map}") != std::string_view::npos;
     std::string map = names_map ? values->front() : std::string();
-    Response response =
-        answer(route, request, {catalog, std::move(*values), target->query, viewer, metrics});
+    Response response = answer(
+        route, map, request, {catalog, std::move(*values), target->query, viewer, metrics, grant});
     response.route = route.pattern;
+    response.guard = route.guard;
     response.map = std::move(map);
     return response;
   }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/access/grant.h"
 #include "server/catalog/catalog.h"
 #include "server/message/request.h"
 #include "server/message/response.h"
@@ -19,10 +20,12 @@ inline constexpr std::size_t kMaxTargetBytes = 4096;
 // That have counted nothing.
 const Metrics& no_metrics();
 
-// The response to a request (PROTOCOL.md). HEAD gets the response to GET; the sender omits the
+// The response to a request (PROTOCOL.md) that has this grant, without regard to Authorization,
+// Range and Accept-Encoding. HEAD gets the response to GET; the sender omits the
 // body. Safe to call from several threads at once. The response keeps alive what it refers to.
 Response handle(const Request& request, const Catalog& catalog,
-                const Viewer& viewer = Viewer::plain(), const Metrics& metrics = no_metrics());
+                const Viewer& viewer = Viewer::plain(), const Metrics& metrics = no_metrics(),
+                const Grant& grant = Grant::everything());
 
 // The paths of all routes, as in openapi.yaml: "/v1/maps/{map}".
 std::vector<std::string_view> path_patterns();

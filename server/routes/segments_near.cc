@@ -75,6 +75,7 @@ Result<Response> answer_segments_near(const Call& call) {
   if (!radius_m) return radius_m.error();
   std::vector<Near> found;
   for (const auto& map : call.catalog.near(*position, *radius_m)) {
+    if (!call.grant.is_for(map->map)) continue;
     const auto lines = call.catalog.lines(*map);
     if (!lines) continue;  // one that is damaged hides no other
     for (const auto& [line, projection] : (*lines)->near(*position, *radius_m))

@@ -7,7 +7,8 @@ namespace milepost::server {
 
 Result<Response> answer_health(const Call&) { return plain_text("ok\n"); }
 
-// "ok" and what is not: a map left out, or damaged since it was opened, a line each.
+// "ok" and what is not: a map left out, or damaged since it was opened, a line each. Who has no
+// token for everything is not told which.
 Result<Response> answer_ready(const Call& call) {
   std::string faults;
   for (const auto& [file, error] : call.catalog.left_out_files())
@@ -15,6 +16,7 @@ Result<Response> answer_ready(const Call& call) {
   for (const auto& [map, error] : call.catalog.faults())
     faults += "damaged: build " + map.second + " of map " + map.first + ": " + error.line() + "\n";
   const bool is_ready = faults.empty() || !call.catalog.settings().all_must_be_served;
+  if (!call.grant.is_for_everything()) faults.clear();
   Response response = plain_text((is_ready ? "ok\n" : "not ready\n") + faults);
   if (!is_ready) {
     response.status = 503;

@@ -58,7 +58,7 @@ Result<Response> answer_tile(const Call& call) {
   if (!index) return index.error();
   const Result<const TileEntry*> tile = find_tile(**index, call.path[4]);
   if (!tile) return tile.error();
-  return immutable_tiles({*map, call.path[2], call.path[3], {*tile}}, (*tile)->digest);
+  return divisible(immutable_tiles({*map, call.path[2], call.path[3], {*tile}}, (*tile)->digest));
 }
 
 }  // namespace milepost::server

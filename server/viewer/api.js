@@ -1,5 +1,7 @@
 // Requests to the server: few at a time, failures told apart.
 
+import {askForToken, authorization} from './token.js';
+
 const MOST_AT_ONCE = 6;
 const WAIT_MS = 20_000;  // then the server counts as away
 
@@ -57,9 +59,10 @@ function queued(task, signal) {
 async function request(path, signal) {
   const timer = AbortSignal.timeout(WAIT_MS);
   const either = signal ? AbortSignal.any([signal, timer]) : timer;
+  const sent = authorization().Authorization;
   let response;
   try {
-    response = await fetch(path, {signal: either});
+    response = await fetch(path, {signal: either, headers: authorization()});
   } catch (failure) {
     if (signal?.aborted) throw new DOMException('', 'AbortError');
     tell(false);
@@ -68,6 +71,9 @@ async function request(path, signal) {
   tell(true);
   if (response.ok) return response;
   const problem = await response.json().catch(() => ({}));
+  // Of all that was asked for without a token, the first one's form is answered for.
+  const isAsked = response.status === 401 && !signal?.aborted;
+  if (isAsked && (sent !== authorization().Authorization || await askForToken(sent ? problem.detail : 'This server shows its maps to those who have a token.'))) return request(path, signal);
   throw new Failure(response.status, problem.detail || `The server answers with ${response.status}.`);
 }
 

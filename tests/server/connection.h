@@ -45,6 +45,7 @@ class Connection {
   Reply receive(bool to_head = false);
   // Whether the peer closes without sending another byte.
   bool closed();
+  int descriptor() const { return socket_; }
   // Some bytes, up to `count`; fewer only when the peer has closed.
   std::string read(std::size_t count);
 

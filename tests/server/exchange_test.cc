@@ -38,8 +38,9 @@ TEST_F(ExchangeTest, IsOneLine) {
   observe({"127.0.0.1", "GET", "/a\nb", 200, 12, std::chrono::microseconds(1500), false}, metrics_);
   EXPECT_EQ(text_.str(), "127.0.0.1 \"GET /a\\x0ab\" 200 12 bytes 1.5 ms\n");
   text_.str("");
-  observe({"unix", "GET", "/", 200, 12, std::chrono::microseconds(500), true}, metrics_);
-  EXPECT_EQ(text_.str(), "unix \"GET /\" 200 12 bytes 0.5 ms, aborted\n");
+  observe({"unix", "GET", "/", 200, 12, std::chrono::microseconds(500), true, {}, {}, 0, "fleet"},
+          metrics_);
+  EXPECT_EQ(text_.str(), "unix fleet \"GET /\" 200 12 bytes 0.5 ms, aborted\n");
 }
 
 TEST_F(ExchangeTest, IsLoggedAtLevelInfoOnly) {

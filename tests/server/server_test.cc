@@ -134,7 +134,7 @@ TEST_F(ServerTest, OtherMethodIs405AndItsBodyIsPassedOver) {
   connection.send("POST /v1/maps HTTP/1.1\r\nHost: test\r\nContent-Length: 5\r\n\r\nhello");
   const Reply reply = connection.receive();
   EXPECT_EQ(reply.status, 405);
-  EXPECT_EQ(reply.header("allow"), "GET, HEAD");
+  EXPECT_EQ(reply.header("allow"), "GET, HEAD, OPTIONS");
   connection.send_get("/healthz");
   EXPECT_EQ(connection.receive().body, "ok\n");
 }

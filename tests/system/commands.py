@@ -38,14 +38,14 @@ def wait_until_caught(process, stop):
 class Server:
     """A tile server on a free port of the loopback address, for a `with` block."""
 
-    def __init__(self, maps):
-        self.maps = maps
+    def __init__(self, maps, options=(), scheme="http"):
+        self.maps, self.options, self.scheme = maps, [str(option) for option in options], scheme
 
     def __enter__(self):
-        self.process = subprocess.Popen([SERVER, "--maps", str(self.maps), "--listen", "127.0.0.1:0"],
+        self.process = subprocess.Popen([SERVER, "--maps", str(self.maps), "--listen", "127.0.0.1:0", *self.options],
                                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         line = self.process.stdout.readline()
-        self.url = "http://" + re.search(r"listening on (\S+)", line).group(1)
+        self.url = f"{self.scheme}://" + re.search(r"listening on (\S+)", line).group(1)
         return self
 
     def __exit__(self, *_):

@@ -47,12 +47,14 @@ def on_plane(latitude_deg, longitude_deg, zoom):
 class ViewerPage:
     """The viewer of a server, in the browser."""
 
-    def __init__(self, driver, url, address=""):
+    def __init__(self, driver, url, address="", asks=False):
+        """Of a page that asks for a token, requests wait until it has one."""
         self.driver, self.url = driver, url
         driver.get_log("browser"), driver.get_log("performance")
         driver.get("about:blank")
         driver.get(f"{url}/{address}")
-        self.settle()
+        if not asks:
+            self.settle()
 
     def ask(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)
@@ -502,6 +504,25 @@ class Viewer(CommandTest):
         self.assertIn(f"No map has “{HOSTILE}” in its name", page.text("#content"))
         self.assertEqual(page.ask("return document.querySelectorAll('#panel img').length"), 0)
         self.assertEqual(page.ask("return document.title"), "milepost maps")
+
+    def test_a_server_that_asks_for_a_token(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tokens = pathlib.Path(folder) / "tokens.json"
+            made = run(commands.SERVER, "token", "--tokens", tokens, "--add", "operator", "--all-maps")
+            self.assertEqual(made.returncode, 0, made.stderr)
+            with Server(self.maps, ["--tokens", tokens]) as server:
+                page = ViewerPage(self.driver, server.url, asks=True)
+                page.until(lambda: "those who have a token" in page.text("dialog"), "the question")
+                page.driver.find_element("id", "token").send_keys("mp_wrong", Keys.ENTER)
+                page.until(lambda: "is not known" in page.text("dialog"), "the question again")
+                page.driver.find_element("id", "token").send_keys(made.stdout.strip(), Keys.ENTER)
+                page.until(lambda: "street" in page.text("#content"), "the catalog")
+                self.assertFalse(page.ask("return !!document.querySelector('dialog')"))
+                page.driver.refresh()
+                page.settle()
+                self.assertIn("street", page.text("#content"))
+                # The browser's log has what was refused, and nothing else.
+                self.assertTrue(all("401" in line for line in page.complaints()))
 
     def test_metrics_are_read(self):
         page = ViewerPage(self.driver, self.serve(self.maps).url)

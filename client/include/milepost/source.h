@@ -20,6 +20,11 @@ struct ServerSource {
   // Contents of the operator's KEY.pub files (milepost-server keygen). If there are any, only maps
   // that one of these keys has signed are used, from the server and from the cache.
   std::vector<std::string> public_keys = {};
+  // A file of certificates in PEM form by which the server is trusted over https; empty: those of
+  // the system.
+  std::string ca_file = {};
+  // The token that the operator gave out (milepost-server token), where the server asks for one.
+  std::string token = {};
 };
 
 // A map file, read without a server or a cache.

@@ -119,6 +119,7 @@ TEST_F(TransportTest, MapsTheStatusOfAProblem) {
   const std::vector<std::pair<int, ErrorCode>> cases = {
       {400, ErrorCode::invalid_input}, {404, ErrorCode::not_found},
       {405, ErrorCode::invalid_input}, {410, ErrorCode::gone},
+      {401, ErrorCode::unavailable},   {403, ErrorCode::unavailable},
       {414, ErrorCode::invalid_input}, {429, ErrorCode::unavailable},
       {431, ErrorCode::invalid_input}, {500, ErrorCode::unavailable},
       {503, ErrorCode::unavailable},
@@ -146,7 +147,7 @@ TEST_F(TransportTest, WhatIsNoProblemSaysNothingAboutTheMap) {
       EXPECT_EQ(body_, "");
     }
   }
-  for (const int status : {401, 403, 407, 418, 511}) {  // never a milepost server's
+  for (const int status : {407, 418, 511}) {  // never a milepost server's
     answer_ = {.status = status, .body = "{}", .headers = kProblem};
     expect_foreign(get("/"), "HTTP status " + std::to_string(status));
   }
