@@ -97,10 +97,6 @@ PreparedAnswer selected(const PreparedAnswer& found, const PreparedAnswer& form,
   return part_for(form, request);
 }
 
-bool has_frames(const Request& request, const Response& response) {
-  return request.method != "HEAD" && frame_count(response) > 0;
-}
-
 }  // namespace
 
 Answer answer_from_memory(const Request& request, const Grant& grant, Shared& shared) {
@@ -117,8 +113,6 @@ Answer answer_from_memory(const Request& request, const Grant& grant, Shared& sh
   if (frame_count(chosen->response) > 0) {
     answer.map = chosen->map.lock();
     if (!answer.map) return {};  // it is no longer in memory, nor are the entries of its tiles
-  }
-  if (has_frames(request, chosen->response)) {
     Frame first = shared.frames.find(frame_digest(chosen->response, 0));
     if (!first) return {};
     answer.frames.push_back(std::move(first));
@@ -145,7 +139,7 @@ Answer answer_from_disk(const Request& request, const Grant& grant, Shared& shar
       shared.answers.add(coded_target(request, coding), catalog, form);
   }
   const PreparedAnswer chosen = selected(found, form, request);
-  if (!has_frames(request, chosen->response)) return {chosen, {}, std::move(map)};
+  if (frame_count(chosen->response) == 0) return {chosen, {}, std::move(map)};
   Result<std::vector<Frame>> frames = read_frames(chosen->response, *map, 0, shared.frames);
   if (frames) return {chosen, std::move(frames).value(), std::move(map)};
   spdlog::error("{}", frames.error().line());

@@ -12,7 +12,8 @@ namespace milepost::server {
 
 struct Answer {
   PreparedAnswer prepared;
-  std::vector<Frame> frames;             // the first ones of the body
+  std::vector<Frame>
+      frames;  // the first ones of the body, also to HEAD: what cannot be read is 500
   std::shared_ptr<const ServedMap> map;  // of the body's frames; null without
 };
 

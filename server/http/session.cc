@@ -276,7 +276,9 @@ void Session::respond(Answer answer) {
       cross_origin_lines(shared_.allowed_origins, request.origin, request.method);
   outgoing_.begin(std::move(answer.prepared), std::move(answer.map), lines,
                   worker_.head_end(incoming_.http_version, keep_alive_), request.method != "HEAD");
-  for (Frame& frame : answer.frames) outgoing_.add(std::move(frame));
+  if (request.method != "HEAD") {
+    for (Frame& frame : answer.frames) outgoing_.add(std::move(frame));
+  }
   send();
 }
 
@@ -378,7 +380,8 @@ void Session::report(bool aborted) const {
   const TokenEntry* token = grant_.token();
   observe({peer_.host, incoming_.request.method, incoming_.request.target, response.status,
            response.content_length(), Clock::now() - begun_, aborted, response.route, response.map,
-           frame_count(response), token == nullptr ? std::string_view() : token->name},
+           incoming_.request.method == "HEAD" ? 0 : frame_count(response),
+           token == nullptr ? std::string_view() : token->name},
           shared_.metrics);
 }
 

@@ -73,7 +73,7 @@ class Access(CommandTest):
         chain, key = certificate(self.folder, "first")
         token = self.folder / "fleet.token"
         token.write_text(self.make_token("fleet", "--map", "street") + "\n")
-        with Server(self.maps, ["--tls-cert", chain, "--tls-key", key, "--tokens", self.folder / "tokens.json"], "https") as server:
+        with Server(self.maps, "--tls-cert", chain, "--tls-key", key, "--tokens", self.folder / "tokens.json", scheme="https") as server:
             refused = self.localize(server, "--token-file", token)
             self.expect_refused(refused, server.url, "certificate")
             refused = self.localize(server, "--ca-file", chain)
@@ -85,7 +85,7 @@ class Access(CommandTest):
 
     def test_a_renewed_certificate_is_taken_up(self):
         chain, key = certificate(self.folder, "first")
-        with Server(self.maps, ["--tls-cert", chain, "--tls-key", key], "https") as server:
+        with Server(self.maps, "--tls-cert", chain, "--tls-key", key, scheme="https") as server:
             host, port = re.search(r"//([^:]+):(\d+)", server.url).groups()
 
             def served():
@@ -116,7 +116,7 @@ class Access(CommandTest):
         self.expect_done(listed)
         self.assertRegex(listed.stdout, r"(?m)^fleet-7  [0-9a-f]{16}  never expires  maps: street$")
         self.assertRegex(listed.stdout, r"(?m)^operator  [0-9a-f]{16}  expires \S+Z  maps: all$")
-        with Server(self.maps, ["--tokens", file]) as server:
+        with Server(self.maps, "--tokens", file) as server:
             self.assertEqual(get(server.url + "/v1/maps/street")[0], 401)
             self.assertEqual(get(server.url + "/v1/maps/street", fleet)[0], 200)
             self.assertEqual(get(server.url + "/metrics", fleet)[0], 403)
@@ -169,7 +169,7 @@ class Access(CommandTest):
         config = self.folder / "server.toml"
         config.write_text(f'tls-cert = "{chain}"\ntls-key = "{key}"\ntokens = "{self.folder / "tokens.json"}"\nrequests-per-s = 1\nburst = 2\n'
                           'allow-origin = ["https://a.example.org", "https://b.example.org"]\n')
-        with Server(self.maps, ["--config", config], "https") as server:
+        with Server(self.maps, "--config", config, scheme="https") as server:
             context = ssl.create_default_context(cafile=chain)
             for origin in ("https://a.example.org", "https://b.example.org"):
                 request = urllib.request.Request(server.url + "/healthz", headers={"Origin": origin})

@@ -36,13 +36,13 @@ def wait_until_caught(process, stop):
 
 
 class Server:
-    """A tile server on a free port of the loopback address, for a `with` block."""
+    """A tile server on a free port of the loopback address, for a `with` block. `words` are more of its options."""
 
-    def __init__(self, maps, options=(), scheme="http"):
-        self.maps, self.options, self.scheme = maps, [str(option) for option in options], scheme
+    def __init__(self, maps, *words, scheme="http"):
+        self.words, self.scheme = ["--maps", str(maps), *map(str, words)], scheme
 
     def __enter__(self):
-        self.process = subprocess.Popen([SERVER, "--maps", str(self.maps), "--listen", "127.0.0.1:0", *self.options],
+        self.process = subprocess.Popen([SERVER, *self.words, "--listen", "127.0.0.1:0"],
                                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         line = self.process.stdout.readline()
         self.url = f"{self.scheme}://" + re.search(r"listening on (\S+)", line).group(1)

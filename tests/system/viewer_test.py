@@ -510,7 +510,7 @@ class Viewer(CommandTest):
             tokens = pathlib.Path(folder) / "tokens.json"
             made = run(commands.SERVER, "token", "--tokens", tokens, "--add", "operator", "--all-maps")
             self.assertEqual(made.returncode, 0, made.stderr)
-            with Server(self.maps, ["--tokens", tokens]) as server:
+            with Server(self.maps, "--tokens", tokens) as server:
                 page = ViewerPage(self.driver, server.url, asks=True)
                 page.until(lambda: "those who have a token" in page.text("dialog"), "the question")
                 page.driver.find_element("id", "token").send_keys("mp_wrong", Keys.ENTER)
