@@ -20,8 +20,8 @@ constexpr const char* kTokenDescription =
     R"(Makes tokens, takes them back and lists them: milepost-server --tokens FILE answers nothing of a
 map without one.
 
-A new token is printed once, on standard output, and kept nowhere: FILE holds its SHA-256, whose it
-is, for which maps and until when. Whoever has the token has what it allows: send it to vehicles on
+A new token is printed once, on standard output, and kept nowhere: FILE, which the server's user must
+be able to read, holds its SHA-256, whose it is, for which maps and until when. Whoever has the token has what it allows: send it to vehicles on
 a safe way, and serve over TLS (--tls-cert). A running server reads FILE again within 30 s, or at
 once on SIGHUP.
 Examples: milepost-server token --tokens tokens.json --add fleet-7 --map town --map village
@@ -88,16 +88,13 @@ Result<TokenEntry> entry_for(const TokenOptions& options) {
   return entry;
 }
 
-// Whole at every instant. Who may read it stays as it is; a new file is for its owner alone.
+// Whole at every instant. Who may read it stays as it is.
 Status write_tokens(const fs::path& file, const Tokens& tokens) {
   std::error_code absent;
   const fs::file_status before = fs::status(file, absent);
-  const fs::perms permissions = fs::is_regular_file(before)
-                                    ? before.permissions()
-                                    : fs::perms::owner_read | fs::perms::owner_write;
   Status written = write_text_file(file, tokens.text());
   std::error_code ignored;  // it holds no secret
-  if (written) fs::permissions(file, permissions, ignored);
+  if (written && fs::is_regular_file(before)) fs::permissions(file, before.permissions(), ignored);
   return written;
 }
 

@@ -1,8 +1,8 @@
 // A server with a map to measure, in the process that tests/bench/server drives.
 //
-// usage: server_bench FOLDER THREADS
+// usage: server_bench FOLDER THREADS CERTIFICATE KEY
 // Writes FOLDER/bench.map, with tiles of several sizes, and serves it without a log until standard
-// input ends. Prints "port PORT", then a line "NAME PATH" for each answer to measure.
+// input ends. Prints "port PORT TLS-PORT", then a line "NAME PATH" for each answer to measure.
 #include <spdlog/spdlog.h>
 
 #include <charconv>
@@ -72,12 +72,16 @@ void print_paths(const std::string& build) {
             << std::flush;
 }
 
-Status serve(const std::filesystem::path& folder, unsigned threads) {
+Status serve(const std::filesystem::path& folder, unsigned threads, const server::TlsFiles& files) {
   spdlog::set_level(spdlog::level::off);
   const Result<std::string> build = write_map(folder / "bench.map");
   if (!build) return build.error();
   server::ServerSettings settings;
   settings.threads = threads;
+  settings.listen = {{"127.0.0.1", 0, {}, true}, {}};
+  const auto tls = server::TlsContext::load(files);
+  if (!tls) return tls.error();
+  settings.tls = std::make_shared<server::CurrentTls>(*tls);
   server::CatalogSettings maps;
   maps.open_maps.readers = settings.disk_threads;
   const auto catalog = server::Catalog::open(folder, maps, [](const std::string&) {});
@@ -85,7 +89,9 @@ Status serve(const std::filesystem::path& folder, unsigned threads) {
   const auto running =
       server::Server::start(std::make_shared<server::CurrentCatalog>(*catalog), settings);
   if (!running) return running.error();
-  std::cout << "port " << (*running)->port() << '\n';
+  const std::string& over_tls = (*running)->addresses().back();
+  std::cout << "port " << (*running)->port() << ' ' << over_tls.substr(over_tls.rfind(':') + 1)
+            << '\n';
   print_paths(*build);
   for (std::string line; std::getline(std::cin, line);) {
   }
@@ -96,13 +102,13 @@ Status serve(const std::filesystem::path& folder, unsigned threads) {
 
 int main(int argc, char** argv) {
   unsigned threads = 0;
-  const std::string_view count = argc == 3 ? argv[2] : "";
+  const std::string_view count = argc == 5 ? argv[2] : "";
   std::from_chars(count.data(), count.data() + count.size(), threads);
   if (threads == 0) {
-    std::cerr << "usage: server_bench FOLDER THREADS\n";
+    std::cerr << "usage: server_bench FOLDER THREADS CERTIFICATE KEY\n";
     return 2;
   }
-  const Status served = serve(argv[1], threads);
+  const Status served = serve(argv[1], threads, {argv[3], argv[4]});
   if (!served) std::cerr << "server_bench: " << served.error().line() << '\n';
   return served ? 0 : 1;
 }

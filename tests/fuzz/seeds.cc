@@ -86,6 +86,44 @@ void write_heads(const SeedFolder& seeds) {
   seeds.write("http_head", "old", "HEAD / HTTP/1.0\r\nIf-None-Match: \"x\",\r\n W/\"y\"\r\n\r\n");
 }
 
+void write_tokens(const SeedFolder& seeds) {
+  const std::string token = "mp_0123456789abcdef_" + std::string(64, '0');
+  const std::string entry =
+      R"({"id": "0123456789abcdef", "name": "fleet-7", "sha256": ")" + std::string(64, 'a');
+  const std::string maps = R"(", "maps": ["town", "village"])";
+  const auto file = [](const std::string& list) { return R"({"tokens": [)" + list + "]}"; };
+  seeds.write("tokens", "none", "\n" + file(""));
+  seeds.write("tokens", "some", "Bearer " + token + "\n" + file(entry + maps + "}"));
+  seeds.write(
+      "tokens", "expires",
+      "bearer  " + token + "\n" + file(entry + maps + R"(, "expires": "2027-01-01T00:00:00Z"})"));
+  seeds.write("tokens", "all", "Basic dTpw\n" + file(entry + R"(", "maps": "*"})"));
+}
+
+void write_request_fields(const SeedFolder& seeds) {
+  const std::string tag = '"' + std::string(32, 'a') + '"';
+  const std::string body(600, 'b');
+  seeds.write("request_fields", "part",
+              "bytes=10-19\n" + tag + "\n\ngzip\nhttps://a.example.org\n" + body);
+  seeds.write("request_fields", "suffix", "bytes=-5\n\n*\nzstd;q=0.5, gzip;q=0.25, *;q=0\n\nb");
+  seeds.write("request_fields", "beyond", "bytes=700-\n\nW/" + tag + ", \"x\"\n\n*\n" + body);
+  seeds.write("request_fields", "several", "bytes=0-1,3-4\n\"x\"\n\nidentity;q=0\nnull\n");
+}
+
+void write_configurations(const SeedFolder& seeds) {
+  const std::string maps = "maps = \"/srv/milepost\"\n";
+  const std::string listen = "listen = \"[::1]:8080\"\n";
+  seeds.write("configuration", "small", maps + listen);
+  seeds.write(
+      "configuration", "several",
+      "# a comment\n" + maps + "listen = [\"plain:127.0.0.1:0\", \"unix:/run/s\"]\n" +
+          "threads = 4\nlog-format = \"json\"\nlog-level = 'warn'\nready-needs-all = true\n");
+  seeds.write("configuration", "access",
+              maps + listen + "tls-cert = \"a.pem\"\ntls-key = \"a.key\"\ntokens = \"t.json\"\n" +
+                  "requests-per-s = 2.5\nburst = 10\nallow-origin = [\"https://a.org\", \"*\"]\n");
+  seeds.write("configuration", "unknown", maps + listen + "[section]\nkey = 1\n");
+}
+
 void write_footprints(const SeedFolder& seeds) {
   const std::string ring = "[[[8.1,49.1],[8.2,49.1],[8.2,49.15],[8.1,49.1]]]";
   const std::string polygon = R"({"type":"Polygon","coordinates":)" + ring + "}";
@@ -328,6 +366,9 @@ int main(int argc, char** argv) {
   milepost::write_models(seeds);
   milepost::write_footprints(seeds);
   milepost::write_heads(seeds);
+  milepost::write_tokens(seeds);
+  milepost::write_request_fields(seeds);
+  milepost::write_configurations(seeds);
   milepost::write_tiles(seeds);
   milepost::write_maps(seeds);
   return 0;

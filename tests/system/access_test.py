@@ -111,7 +111,9 @@ class Access(CommandTest):
         file = self.folder / "tokens.json"
         fleet, operator = self.make_token("fleet-7", "--map", "street"), self.make_token("operator", "--all-maps", "--days", "3")
         self.assertNotIn(fleet, file.read_text())
-        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+        os.chmod(file, 0o640)
+        self.make_token("third", "--all-maps")
+        self.assertEqual(file.stat().st_mode & 0o777, 0o640)
         listed = run(SERVER, "token", "--tokens", file, "--list")
         self.expect_done(listed)
         self.assertRegex(listed.stdout, r"(?m)^fleet-7  [0-9a-f]{16}  never expires  maps: street$")
