@@ -94,8 +94,11 @@ void Session::establish() {
       await_writable();
       break;
   }
-  // At first the client is silent; then it has as long as for a request.
-  if (!in_request_) worker_.wait(*this, worker_.finishing() ? Phase::last : Phase::idle);
+  if (in_request_) return;
+  // The client may be silent as before a request, but not if it is rejected: it takes no idle
+  // one's place.
+  const Phase silent = worker_.finishing() ? Phase::last : Phase::idle;
+  worker_.wait(*this, rejected_ ? Phase::request : silent);
 }
 
 void Session::end_establishing() {
