@@ -43,8 +43,10 @@ class Catalog {
 
   // The catalog of what the directory holds now. Builds that were replaced stay until their time is
   // over, and so does the build of a map whose new file cannot be served, for as long as that is
-  // so. `warn` is told of what was not left out before. Errors: those of read_directory.
-  Result<std::shared_ptr<const Catalog>> reloaded(Clock::time_point now, const Warn& warn) const;
+  // so. Where `changes` tells of all that happened since, no other files are looked at. `warn` is
+  // told of what was not left out before. Errors: those of read_directory.
+  Result<std::shared_ptr<const Catalog>> reloaded(Clock::time_point now, const Warn& warn,
+                                                  const DirectoryChanges& changes) const;
 
   // The current builds, by the maps' names.
   const std::map<std::string, std::shared_ptr<const MapBuild>>& maps() const { return maps_; }

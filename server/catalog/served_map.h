@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct ServedSegment {
   Document document;
 };
 
-// Immutable, so safe to share between threads.
+// Safe to share between threads: nothing that is seen of it changes.
 class ServedMap {
  public:
   // Has up to `readers` readers, for threads that read tiles at once. Tells `faults` of tiles that
@@ -36,7 +37,7 @@ class ServedMap {
   const std::map<std::string, ServedSegment>& segments() const { return segments_; }
   // Layer -> index, ascending; every layer, also those without cells.
   const std::map<std::string, std::vector<CellEntry>>& cells() const { return cells_; }
-  const Document& document() const { return document_; }  // of the current state
+  const Document& document() const;  // of the current state
   const Document& manifest() const { return manifest_; }
   const Document& summary() const { return summary_; }  // the build's map document
   const Document& areas() const { return areas_; }      // the index of the cells
@@ -74,7 +75,8 @@ class ServedMap {
   std::map<std::string, std::vector<CellEntry>> cells_;
   std::shared_ptr<const MapLines> lines_;
   std::uint64_t memory_bytes_ = 0;
-  Document document_;
+  mutable std::once_flag document_asked_for_;
+  mutable Document document_;  // guarded by document_asked_for_
   Document manifest_;
   Document summary_;
   Document areas_;
