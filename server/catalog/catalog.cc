@@ -79,9 +79,11 @@ void Catalog::take(MapDirectory directory, const Catalog* before, Clock::time_po
   directory_ = std::move(directory);
   maps_ = directory_.maps;
   if (before != nullptr) retire(*before, now);
-  open_maps_->faults()->keep_only([this](const std::string& map, const std::string& build) {
+  const auto is_served = [this](const std::string& map, const std::string& build) {
     return this->build(map, build) != nullptr;
-  });
+  };
+  open_maps_->faults()->keep_only(is_served);
+  open_maps_->signatures().keep_only(is_served);
   index();
   document_ = catalog_document(maps_);
 }
@@ -162,6 +164,13 @@ std::shared_ptr<const MapBuild> Catalog::older_build(const std::string& map,
   if (!identity) return nullptr;
   return std::make_shared<const MapBuild>(
       MapBuild{map, build, std::nullopt, nullptr, file, *identity, nullptr});
+}
+
+Result<std::string> Catalog::signature(const ServedMap& map) const {
+  const auto current = maps_.find(map.name());
+  return open_maps_->signatures().of(
+      {map.name(), map.build(), map.file(), kept_build_file(path_, map.name(), map.build()),
+       current != maps_.end() && current->second->build == map.build()});
 }
 
 Result<std::shared_ptr<const MapLines>> Catalog::lines(const MapBuild& build) const {

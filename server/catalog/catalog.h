@@ -75,6 +75,8 @@ class Catalog {
   }
   // The same for its lines alone, most of which are in memory.
   Result<std::shared_ptr<const MapLines>> lines(const MapBuild& build) const;
+  // The text of the signature of a build that is served. Errors: those of Signatures::of.
+  Result<std::string> signature(const ServedMap& map) const;
   // Maps whose files were damaged after they were opened.
   std::map<std::pair<std::string, std::string>, Error> faults() const {
     return open_maps_->faults()->all();

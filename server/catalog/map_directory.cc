@@ -76,6 +76,7 @@ class Scan {
   void look_again_at(const std::set<fs::path>& files) {
     found_.files = before_.files;
     for (const fs::path& file : files) {
+      if (is_named_as_signature(file)) see_signature_of(fs::path(file).replace_extension());
       if (!may_be_map(file)) continue;
       found_.files.erase(file.native());
       std::error_code ignored;
@@ -123,6 +124,12 @@ class Scan {
   }
 
  private:
+  void see_signature_of(const fs::path& file) {
+    const auto known = before_.files.find(file.native());
+    if (known == before_.files.end() || !known->second.build) return;
+    open_maps_.signatures().see(known->second.name, known->second.build->build, file);
+  }
+
   LookedAt first_look(const fs::path& file, const FileIdentity& identity) const {
     LookedAt looked{identity, false, {}, nullptr, {}};
     const Status content = check_map_file(file);
@@ -181,6 +188,7 @@ class Scan {
         MapBuild{looked.name, (*map)->build(), lines->bounds(), stays_in_memory ? lines : nullptr,
                  file, held->identity(), stays_open ? held : nullptr});
     open_maps_.add(*map);
+    open_maps_.signatures().see(looked.name, (*map)->build(), file);
   }
 
   const MapDirectory& before_;

@@ -13,7 +13,6 @@
 #include "server/catalog/map_faults.h"
 #include "server/catalog/map_lines.h"
 #include "server/catalog/reader_pool.h"
-#include "server/catalog/signature_file.h"
 
 namespace milepost::server {
 
@@ -34,6 +33,7 @@ class ServedMap {
 
   const std::string& name() const { return name_; }
   const std::string& build() const { return build_; }
+  const std::filesystem::path& file() const { return file_->path(); }  // where it was opened
   const std::map<std::string, ServedSegment>& segments() const { return segments_; }
   // Layer -> index, ascending; every layer, also those without cells.
   const std::map<std::string, std::vector<CellEntry>>& cells() const { return cells_; }
@@ -44,9 +44,6 @@ class ServedMap {
   const std::shared_ptr<const MapLines>& lines() const { return lines_; }
   // Of the documents and the indices, about.
   std::uint64_t memory_bytes() const { return memory_bytes_; }
-
-  // The text of the build's signature. Errors: those of read_signature_of.
-  Result<std::string> signature() const { return read_signature_of(file_->path(), name_, build_); }
 
   // An encoded tile, checked against its entry in the index.
   // Errors: corrupt (it is not the one of the index), io.
