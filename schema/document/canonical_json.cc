@@ -1,8 +1,12 @@
 #include "schema/document/canonical_json.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -13,8 +17,13 @@ using nlohmann::json;
 
 // The fewest digits that restore a number, and its power of ten: 0.DIGITS * 10^exponent.
 struct Decimal {
-  std::string digits;
+  std::array<char, 24> all{};
+  int count = 0;
   int exponent = 0;
+
+  std::string_view digits(int from, int to) const {
+    return {all.data() + from, static_cast<std::size_t>(to - from)};
+  }
 };
 
 // REQUIRES: value > 0.
@@ -26,7 +35,7 @@ Decimal decimal_of(double value) {
   Decimal decimal;
   const char* at = text.data();
   for (; *at != 'e'; ++at) {
-    if (*at != '.') decimal.digits += *at;
+    if (*at != '.') decimal.all.at(decimal.count++) = *at;
   }
   ++at;
   if (*at == '+') ++at;
@@ -35,48 +44,87 @@ Decimal decimal_of(double value) {
   return decimal;
 }
 
-// As ECMAScript writes numbers (ECMA-262, Number::toString).
-std::string number_text(double value) {
-  if (value == 0) return "0";
-  const std::string sign = value < 0 ? "-" : "";
-  const auto [digits, exponent] = decimal_of(std::abs(value));
-  const int count = static_cast<int>(digits.size());
-  if (exponent > 21 || exponent <= -6) {
-    const std::string fraction = count > 1 ? "." + digits.substr(1) : "";
-    return sign + digits.front() + fraction + (exponent > 0 ? "e+" : "e-") +
-           std::to_string(std::abs(exponent - 1));
-  }
-  if (exponent <= 0) return sign + "0." + std::string(-exponent, '0') + digits;
-  if (count <= exponent) return sign + digits + std::string(exponent - count, '0');
-  return sign + digits.substr(0, exponent) + "." + digits.substr(exponent);
+template <class Integer>
+void append_integer(std::string& text, Integer value) {
+  std::array<char, 24> digits{};
+  text.append(digits.data(),
+              std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-std::string string_text(const json& text) {
-  return text.dump(-1, ' ', false, json::error_handler_t::replace);
+// As ECMAScript writes numbers (ECMA-262, Number::toString).
+void append_number(std::string& text, double value) {
+  if (value == 0) {
+    text += '0';
+    return;
+  }
+  if (value < 0) text += '-';
+  const Decimal decimal = decimal_of(std::abs(value));
+  const auto [count, exponent] = std::pair(decimal.count, decimal.exponent);
+  if (exponent > 21 || exponent <= -6) {
+    text += decimal.all.front();
+    if (count > 1) text.append(".").append(decimal.digits(1, count));
+    text += exponent > 0 ? "e+" : "e-";
+    append_integer(text, std::abs(exponent - 1));
+  } else if (exponent <= 0) {
+    text.append("0.").append(-exponent, '0').append(decimal.digits(0, count));
+  } else if (count <= exponent) {
+    text.append(decimal.digits(0, count)).append(exponent - count, '0');
+  } else {
+    text.append(decimal.digits(0, exponent)).append(".").append(decimal.digits(exponent, count));
+  }
+}
+
+// Whether a string is written as it is.
+bool is_plain(std::string_view text) {
+  return std::ranges::all_of(text,
+                             [](char c) { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; });
+}
+
+void append_string(std::string& text, const std::string& value) {
+  if (is_plain(value)) {
+    text.append("\"").append(value).append("\"");
+  } else {
+    text += json(value).dump(-1, ' ', false, json::error_handler_t::replace);
+  }
 }
 
 void append(std::string& text, const json& value) {
   const char* separator = "";
-  if (value.is_object()) {
-    text += '{';
-    for (const auto& [name, member] : value.items()) {
-      text += separator + string_text(name) + ':';
-      append(text, member);
-      separator = ",";
-    }
-    text += '}';
-  } else if (value.is_array()) {
-    text += '[';
-    for (const json& member : value) {
-      text += separator;
-      append(text, member);
-      separator = ",";
-    }
-    text += ']';
-  } else if (value.is_number_float()) {
-    text += number_text(value.get<double>());
-  } else {
-    text += string_text(value);
+  switch (value.type()) {
+    case json::value_t::object:
+      text += '{';
+      for (const auto& [name, member] : value.get_ref<const json::object_t&>()) {
+        text += separator;
+        append_string(text, name);
+        text += ':';
+        append(text, member);
+        separator = ",";
+      }
+      text += '}';
+      break;
+    case json::value_t::array:
+      text += '[';
+      for (const json& member : value) {
+        text += separator;
+        append(text, member);
+        separator = ",";
+      }
+      text += ']';
+      break;
+    case json::value_t::string:
+      append_string(text, value.get_ref<const std::string&>());
+      break;
+    case json::value_t::number_float:
+      append_number(text, value.get<double>());
+      break;
+    case json::value_t::number_integer:
+      append_integer(text, value.get<std::int64_t>());
+      break;
+    case json::value_t::number_unsigned:
+      append_integer(text, value.get<std::uint64_t>());
+      break;
+    default:
+      text += value.dump();
   }
 }
 

@@ -8,12 +8,24 @@ namespace {
 
 using nlohmann::json;
 
-Result<json> parameters_object(const std::string& text, const std::string& whose) {
-  Result<json> object = read_json(text);
-  if (object && object->is_object()) return object;
-  return Error{ErrorCode::corrupt, whose,
-               object ? "the parameters are not a JSON object" : object.error().what,
-               "build the map anew"};
+constexpr std::size_t kMaxKnownParameters = 16;
+constexpr std::size_t kMaxKnownBytes = 65536;
+
+// Parameters in their canonical form. Those of most maps are the same, being the mapper's: the
+// latest are kept.
+Result<std::string> canonical_parameters(const std::string& text, const std::string& whose) {
+  thread_local std::map<std::string, std::string> known;
+  if (const auto found = known.find(text); found != known.end()) return found->second;
+  const Result<json> object = read_json(text);
+  if (!object || !object->is_object()) {
+    return Error{ErrorCode::corrupt, whose,
+                 object ? "the parameters are not a JSON object" : object.error().what,
+                 "build the map anew"};
+  }
+  std::string canonical = canonical_json(*object);
+  if (known.size() >= kMaxKnownParameters) known.clear();
+  if (text.size() <= kMaxKnownBytes) known[text] = canonical;
+  return canonical;
 }
 
 json bounds_json(const Bounds& bounds) {
@@ -24,9 +36,15 @@ json bounds_json(const Bounds& bounds) {
 }
 
 json line_json(const std::vector<StoredVertex>& vertices) {
-  json line = json::array();
+  json::array_t line;
+  line.reserve(vertices.size());
   for (const StoredVertex& vertex : vertices) {
-    line.push_back({vertex.latitude_deg, vertex.longitude_deg, vertex.altitude_m, vertex.along_m});
+    json::array_t numbers;
+    numbers.reserve(4);
+    for (const double number :
+         {vertex.latitude_deg, vertex.longitude_deg, vertex.altitude_m, vertex.along_m})
+      numbers.emplace_back(number);
+    line.emplace_back(std::move(numbers));
   }
   return line;
 }
@@ -55,8 +73,14 @@ void add_position_error(json& segment, const PositionError& error) {
 }
 
 json entry_json(const TileEntry& tile) {
-  return {{"index", tile.index}, {"from_m", tile.along.from_m}, {"to_m", tile.along.to_m},
-          {"items", tile.items}, {"bytes", tile.bytes},         {"digest", tile.digest}};
+  json entry;
+  entry["index"] = tile.index;
+  entry["from_m"] = tile.along.from_m;
+  entry["to_m"] = tile.along.to_m;
+  entry["items"] = tile.items;
+  entry["bytes"] = tile.bytes;
+  entry["digest"] = tile.digest;
+  return entry;
 }
 
 json entry_json(const CellEntry& cell) {
@@ -80,22 +104,26 @@ json indices_json(const std::map<std::string, std::vector<Entry>>& indices) {
 
 }  // namespace
 
+// Its members are in the order of their names, as those of canonical_json.
 Result<std::string> map_document(const MapSummary& map) {
+  const Result<std::string> feature = canonical_parameters(map.feature_json, "feature parameters");
   json layers = json::array();
-  json parameters = json::object();
+  std::string parameters;
   for (const auto& [layer, text] : map.layers) {
-    Result<json> object = parameters_object(text, "layer " + layer);
-    if (!object) return object.error();
+    const Result<std::string> canonical = canonical_parameters(text, "layer " + layer);
+    if (!canonical) return canonical.error();
     layers.push_back(layer);
-    parameters[layer] = std::move(*object);
+    if (!parameters.empty()) parameters += ',';
+    parameters.append(canonical_json(layer)).append(":").append(*canonical);
   }
-  Result<json> feature = parameters_object(map.feature_json, "feature parameters");
   if (!feature) return feature.error();
-  json document = {{"layers", std::move(layers)},    {"layer_parameters", std::move(parameters)},
-                   {"feature", std::move(*feature)}, {"bounds", bounds_json(map.bounds)},
-                   {"segment_count", map.segments},  {"length_m", map.length_m}};
-  if (!map.datum.empty()) document["datum"] = map.datum;
-  return canonical_json(document);
+  std::string document = R"({"bounds":)" + canonical_json(bounds_json(map.bounds));
+  if (!map.datum.empty()) document.append(R"(,"datum":)").append(canonical_json(map.datum));
+  document.append(R"(,"feature":)").append(*feature);
+  document.append(R"(,"layer_parameters":{)").append(parameters).append("}");
+  document.append(R"(,"layers":)").append(canonical_json(layers));
+  document.append(R"(,"length_m":)").append(canonical_json(map.length_m));
+  return document.append(R"(,"segment_count":)").append(canonical_json(map.segments)).append("}");
 }
 
 std::string segment_document(const StoredSegment& segment, const TileIndices& tiles) {

@@ -13,7 +13,7 @@
 namespace milepost {
 namespace {
 
-enum ContentQuery { kSegmentRow, kVertices, kSuccessors, kPasses, kTiles };
+enum ContentQuery { kSegmentRow, kVertices, kSuccessors, kPasses, kTiles, kEveryCellRow };
 constexpr const char* kContentQueries[] = {
     "SELECT length_m, position_sigma_m IS NOT NULL, position_sigma_m, "
     "position_correlation_m IS NOT NULL, position_correlation_m, assumed FROM segments "
@@ -24,9 +24,8 @@ constexpr const char* kContentQueries[] = {
     "SELECT drive, from_m, to_m FROM passes WHERE segment = ? ORDER BY position",
     "SELECT layer, number, from_m, to_m, items, bytes, digest FROM tiles WHERE segment = ? "
     "ORDER BY layer, number",
+    "SELECT layer, number, items, bytes, digest FROM cells ORDER BY layer, number",
 };
-constexpr const char* kEveryCellRow =
-    "SELECT layer, number, items, bytes, digest FROM cells ORDER BY layer, number";
 
 // The name is not quoted: it may hold any bytes.
 Status malformed_name(const std::string& where, const std::string& whose) {
@@ -74,14 +73,7 @@ Status as_corrupt(const Status& checked) {
 // Passes each row of a query with one text as its parameter to `use`.
 template <class Use>
 Status for_each_row_of(sqlite::Statement& query, const std::string& key, Use use) {
-  Rows row(query.bind(1, key));
-  while (true) {
-    const Result<bool> more = row.next();
-    if (!more) return more.error();
-    if (!*more) return ok_status();
-    const Status used = use(row);
-    if (!used.ok()) return used;
-  }
+  return for_each_row(query.bind(1, key), use);
 }
 
 }  // namespace
@@ -95,13 +87,10 @@ Result<MapContent> MapContent::of(const sqlite::Database& map) {
     if (!query) return query.error();
     queries.push_back(std::move(*query));
   }
-  if (const Result<sqlite::Statement> cells = map.prepare(kEveryCellRow); !cells) {
-    return cells.error();
-  }
   return MapContent(map, std::move(queries));
 }
 
-Result<MapSummary> MapContent::summary() const {
+Result<MapSummary> MapContent::summary(std::vector<std::string>& ids) const {
   const std::string place = map_->file().string();
   MapSummary summary;
   Status read = for_each_row(*map_, "SELECT name, parameters FROM layers", [&](const Rows& row) {
@@ -111,27 +100,15 @@ Result<MapSummary> MapContent::summary() const {
   });
   if (!read.ok()) return read.error();
   // Summed in one order, so that the rounding is the same everywhere.
-  read = for_each_row(*map_, "SELECT length_m FROM segments ORDER BY id", [&](const Rows& row) {
+  read = for_each_row(*map_, "SELECT id, length_m FROM segments ORDER BY id", [&](const Rows& row) {
+    if (!is_segment_id(row->text(0))) return malformed_name(place, "a segment's");
+    ids.push_back(row->text(0));
     ++summary.segments;
-    summary.length_m += row->real(0);
+    summary.length_m += row->real(1);
     return ok_status();
   });
   if (!read.ok()) return read.error();
   return summary;
-}
-
-Result<std::vector<std::string>> MapContent::segment_ids() const {
-  std::vector<std::string> ids;
-  const Status read =
-      for_each_row(*map_, "SELECT id FROM segments ORDER BY id", [&](const Rows& row) {
-        if (!is_segment_id(row->text(0))) {
-          return malformed_name(map_->file().string(), "a segment's");
-        }
-        ids.push_back(row->text(0));
-        return ok_status();
-      });
-  if (!read.ok()) return read.error();
-  return ids;
 }
 
 Status MapContent::read_row(StoredSegment& segment) {
@@ -196,9 +173,9 @@ Result<SegmentContent> MapContent::segment(const std::string& id) {
   return content;
 }
 
-Result<CellIndices> MapContent::cells() const {
+Result<CellIndices> MapContent::cells() {
   CellIndices cells;
-  const Status read = for_each_row(*map_, kEveryCellRow, [&](const Rows& row) {
+  const Status read = for_each_row(queries_[kEveryCellRow], [&](const Rows& row) {
     if (!is_sound_cell(row)) {
       const std::string layer = is_layer_name(row->text(0)) ? row->text(0) : "?";
       return Status(corrupt(map_->file().string() + ", " + cell_name(layer, row->integer(1)),
@@ -214,7 +191,8 @@ Result<CellIndices> MapContent::cells() const {
 Result<Manifest> manifest_of(const sqlite::Database& map, MapSummary stated) {
   Result<MapContent> content = MapContent::of(map);
   if (!content) return content.error();
-  Result<MapSummary> summary = content->summary();
+  std::vector<std::string> ids;
+  Result<MapSummary> summary = content->summary(ids);
   if (!summary) return summary.error();
   stated.layers = std::move(summary->layers);
   stated.segments = summary->segments;
@@ -225,11 +203,9 @@ Result<Manifest> manifest_of(const sqlite::Database& map, MapSummary stated) {
   }
   const Result<CellIndices> cells = content->cells();
   if (!cells) return cells.error();
-  const Result<std::vector<std::string>> ids = content->segment_ids();
-  if (!ids) return ids.error();
   Manifest manifest{ListedDocument::of(*document), ListedDocument::of(areas_document(*cells))};
   if (!stated.mapping.empty()) manifest.mapping = ListedDocument::of(stated.mapping);
-  for (const std::string& id : *ids) {
+  for (const std::string& id : ids) {
     const Result<SegmentContent> segment = content->segment(id);
     if (!segment) return segment.error();
     manifest.segments[id] = ListedDocument::of(segment->document());

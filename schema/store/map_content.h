@@ -30,11 +30,10 @@ class MapContent {
   // Errors of all: corrupt, which names the place in the file; io.
   static Result<MapContent> of(const sqlite::Database& map);
 
-  // Without what the table meta has.
-  Result<MapSummary> summary() const;
-  Result<std::vector<std::string>> segment_ids() const;  // ascending
+  // Without what the table meta has. Adds the ids of the segments, ascending, to `ids`.
+  Result<MapSummary> summary(std::vector<std::string>& ids) const;
   Result<SegmentContent> segment(const std::string& id);
-  Result<CellIndices> cells() const;
+  Result<CellIndices> cells();
 
  private:
   MapContent(const sqlite::Database& map, std::vector<sqlite::Statement> queries)

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -25,14 +26,18 @@ constexpr const char* kReadSettings =
     "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON; PRAGMA cache_size = -256;";
 constexpr std::size_t kMaxSegmentsInMemory = 64;
 
-enum Query { kMeta, kTileFrame, kCellFrame };
+enum Query { kTileFrame, kCellFrame };
+constexpr const char* kMeta = "SELECT value FROM meta WHERE key = ?";
 constexpr const char* kQueries[] = {
-    "SELECT value FROM meta WHERE key = ?",
     "SELECT frames.frame FROM tiles JOIN frames ON frames.id = tiles.frame "
     "WHERE segment = ? AND layer = ? AND number = ?",
     "SELECT frames.frame FROM cells JOIN frames ON frames.id = cells.frame "
     "WHERE layer = ? AND number = ?",
 };
+// Of what the queries above need, all that the index of tiles and cells does not: they are prepared
+// when the first tile is read.
+constexpr std::pair<const char*, const char*> kColumnsOfFrames[] = {
+    {"frames", "id"}, {"frames", "frame"}, {"tiles", "frame"}, {"cells", "frame"}};
 
 // Whether the file is a map of this format's version.
 Status check_format(const sqlite::Database& map) {
@@ -78,8 +83,9 @@ using SharedSegment = std::shared_ptr<const CheckedSegment>;
 
 struct MapReader::Impl {
   sqlite::Database database;
-  std::vector<sqlite::Statement> queries{};  // destroyed before their connection
-  std::optional<MapContent> content{};       // the same
+  std::optional<sqlite::Statement> meta{};                    // destroyed before its connection,
+  std::array<std::optional<sqlite::Statement>, 2> queries{};  // like all of these; once asked for
+  std::optional<MapContent> content{};
   std::string build{};
   std::string manifest_document{};
   Manifest manifest{};
@@ -90,13 +96,13 @@ struct MapReader::Impl {
   std::optional<CellIndices> cells{};               // once they were read
 
   std::string place() const { return database.file().string(); }
-  sqlite::Statement& query(Query kind) { return queries[kind]; }
 
   Status prepare() {
-    for (const char* sql : kQueries) {
-      Result<sqlite::Statement> query = database.prepare(sql);
-      if (!query) return query.error();
-      queries.push_back(std::move(*query));
+    Result<sqlite::Statement> of_meta = database.prepare(kMeta);
+    if (!of_meta) return of_meta.error();
+    meta.emplace(std::move(*of_meta));
+    for (const auto& [table, column] : kColumnsOfFrames) {
+      if (Status there = database.check_column(table, column); !there) return there;
     }
     Result<MapContent> tables = MapContent::of(database);
     if (!tables) return tables.error();
@@ -107,7 +113,7 @@ struct MapReader::Impl {
   // Passes the value of `key` in the table meta to `use`. Returns whether there is one.
   template <class Use>
   Result<bool> read_meta_if_any(const char* key, Use use) {
-    Rows row(query(kMeta).bind(1, std::string_view(key)));
+    Rows row(meta->bind(1, std::string_view(key)));
     const Result<bool> found = row.next();
     if (found && *found) use(row);
     return found;
@@ -163,16 +169,13 @@ struct MapReader::Impl {
   }
 
   Status read_summary() {
-    Result<MapSummary> read = content->summary();
+    Result<MapSummary> read = content->summary(segment_ids);
     if (!read) return read.error();
     summary = std::move(*read);
     Status status = read_text("feature", summary.feature_json);
     if (status.ok()) status = read_text_if_any("datum", summary.datum);
     if (status.ok()) status = read_bounds();
     if (!status.ok()) return status;
-    Result<std::vector<std::string>> ids = content->segment_ids();
-    if (!ids) return ids.error();
-    segment_ids = std::move(*ids);
     Result<std::string> document = milepost::map_document(summary);
     if (!document) return corrupt(place() + ", " + document.error().where, document.error().what);
     map_document = std::move(*document);
@@ -243,10 +246,16 @@ struct MapReader::Impl {
     return ok_status();
   }
 
-  // The bytes of a tile or a cell, in the first row of a query that is bound.
-  static Result<Bytes> frame(sqlite::Statement& query, const std::string& digest,
-                             const std::string& where) {
-    Rows row(query);
+  // The bytes of a tile or a cell, in the first row of a query that `bind` gives its parameters.
+  template <class Bind>
+  Result<Bytes> frame(Query kind, Bind bind, const std::string& digest, const std::string& where) {
+    std::optional<sqlite::Statement>& query = queries.at(kind);
+    if (!query) {
+      Result<sqlite::Statement> prepared = database.prepare(kQueries[kind]);
+      if (!prepared) return prepared.error();
+      query.emplace(std::move(*prepared));
+    }
+    Rows row(bind(*query));
     const Result<bool> found = row.next();
     if (!found) return found.error();
     if (!*found) return corrupt(where, "the tile's bytes are missing");
@@ -292,6 +301,7 @@ const std::map<std::string, std::string>& MapReader::layers() const {
   return impl_->summary.layers;
 }
 const std::vector<std::string>& MapReader::segment_ids() const { return impl_->segment_ids; }
+const Manifest& MapReader::manifest() const { return impl_->manifest; }
 const std::string& MapReader::manifest_document() const { return impl_->manifest_document; }
 const std::string& MapReader::map_document() const { return impl_->map_document; }
 
@@ -337,11 +347,11 @@ Result<Bytes> MapReader::tile(const std::string& segment, const std::string& lay
 
 Result<Bytes> MapReader::tile(const std::string& segment, const std::string& layer,
                               const TileEntry& entry) const {
-  return Impl::frame(impl_->query(kTileFrame)
-                         .bind(1, segment)
-                         .bind(2, layer)
-                         .bind(3, static_cast<std::int64_t>(entry.index)),
-                     entry.digest, impl_->place() + ", " + tile_name(segment, layer, entry.index));
+  const auto bind = [&](sqlite::Statement& query) -> sqlite::Statement& {
+    return query.bind(1, segment).bind(2, layer).bind(3, static_cast<std::int64_t>(entry.index));
+  };
+  return impl_->frame(kTileFrame, bind, entry.digest,
+                      impl_->place() + ", " + tile_name(segment, layer, entry.index));
 }
 
 Result<std::string> MapReader::areas_document() const {
@@ -376,9 +386,11 @@ Result<Bytes> MapReader::cell(const std::string& layer, std::uint32_t number) co
 }
 
 Result<Bytes> MapReader::cell(const std::string& layer, const CellEntry& entry) const {
-  return Impl::frame(
-      impl_->query(kCellFrame).bind(1, layer).bind(2, static_cast<std::int64_t>(entry.cell)),
-      entry.digest, impl_->place() + ", " + cell_name(layer, entry.cell));
+  const auto bind = [&](sqlite::Statement& query) -> sqlite::Statement& {
+    return query.bind(1, layer).bind(2, static_cast<std::int64_t>(entry.cell));
+  };
+  return impl_->frame(kCellFrame, bind, entry.digest,
+                      impl_->place() + ", " + cell_name(layer, entry.cell));
 }
 
 Result<std::string> MapReader::mapping_document() const {

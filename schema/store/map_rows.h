@@ -22,12 +22,10 @@ class Rows {
   sqlite::Statement& statement_;
 };
 
-// Passes each row of a query without parameters to `use`, which may stop it with an error.
+// Passes each row of a query to `use`, which may stop it with an error.
 template <class Use>
-Status for_each_row(const sqlite::Database& map, const char* sql, Use use) {
-  Result<sqlite::Statement> statement = map.prepare(sql);
-  if (!statement) return statement.error();
-  Rows row(*statement);
+Status for_each_row(sqlite::Statement& statement, Use use) {
+  Rows row(statement);
   while (true) {
     const Result<bool> more = row.next();
     if (!more) return more.error();
@@ -35,6 +33,13 @@ Status for_each_row(const sqlite::Database& map, const char* sql, Use use) {
     const Status used = use(row);
     if (!used.ok()) return used;
   }
+}
+
+template <class Use>
+Status for_each_row(const sqlite::Database& map, const char* sql, Use use) {
+  Result<sqlite::Statement> statement = map.prepare(sql);
+  if (!statement) return statement.error();
+  return for_each_row(*statement, use);
 }
 
 inline std::string tile_name(const std::string& segment, const std::string& layer,

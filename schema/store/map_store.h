@@ -14,6 +14,7 @@
 #include "schema/base/ids.h"
 #include "schema/base/range.h"
 #include "schema/base/result.h"
+#include "schema/document/manifest.h"
 #include "schema/document/stored_map.h"
 #include "schema/store/held_file.h"
 
@@ -45,7 +46,8 @@ class MapReader {
   const std::string& datum() const;  // of all positions, Datum::text; empty: not stated
   const std::map<std::string, std::string>& layers() const;  // name -> parameters, a JSON object
   const std::vector<std::string>& segment_ids() const;       // in the order of the ids
-  // Documents that the build covers (FORMAT.md 7).
+  // Documents that the build covers (FORMAT.md 7), and their digests.
+  const Manifest& manifest() const;
   const std::string& manifest_document() const;
   const std::string& map_document() const;
 

@@ -61,6 +61,11 @@ std::string uri_for(const std::filesystem::path& file, std::string_view query) {
 
 }  // namespace
 
+void expect_many_connections() {
+  sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
+  sqlite3_config(SQLITE_CONFIG_PAGECACHE, nullptr, 0, 0);
+}
+
 void Statement::Finalizer::operator()(sqlite3_stmt* statement) const {
   sqlite3_finalize(statement);
 }
@@ -174,6 +179,12 @@ Result<Statement> Database::prepare(std::string_view sql) const {
                                       &statement, nullptr);
   if (code != SQLITE_OK) return error_of(database_.get(), code);
   return Statement(statement);
+}
+
+Status Database::check_column(const char* table, const char* column) const {
+  const int code = sqlite3_table_column_metadata(database_.get(), "main", table, column, nullptr,
+                                                 nullptr, nullptr, nullptr, nullptr);
+  return code == SQLITE_OK ? ok_status() : Status(error_of(database_.get(), code));
 }
 
 Result<std::int64_t> Database::integer(std::string_view sql) const {

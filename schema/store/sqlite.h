@@ -17,6 +17,11 @@ struct sqlite3_stmt;
 
 namespace milepost::sqlite {
 
+// For programs with connections to very many files: nothing is counted of all of them together, for
+// which their threads would wait for one another, and pages have no memory before they are read.
+// Does nothing once a connection was opened.
+void expect_many_connections();
+
 // A prepared statement. Parameters and columns count from 1 and 0, as in SQLite.
 // Its Database must outlive it.
 class Statement {
@@ -70,6 +75,9 @@ class Database {
   Status execute(const std::string& sql);
   // Errors: corrupt (the file is not a database, or lacks the table).
   Result<Statement> prepare(std::string_view sql) const;
+  // Whether a table has a column, told faster than by preparing a query of it. Errors: corrupt (it
+  // has none).
+  Status check_column(const char* table, const char* column) const;
   // The first column of the first row, 0 if there is none. Errors: as Statement::step.
   Result<std::int64_t> integer(std::string_view sql) const;
   std::int64_t changes() const;  // rows that the last statement changed

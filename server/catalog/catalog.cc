@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
+#include "schema/store/sqlite.h"
 #include "server/catalog/kept_builds.h"
 
 namespace milepost::server {
@@ -13,7 +12,7 @@ namespace {
 // Whether a file of the map is there, but cannot be served.
 bool is_left_out(const MapDirectory& directory, const std::string& map) {
   return std::ranges::any_of(directory.left_out, [&](const auto& left_out) {
-    const auto looked = directory.files.find(left_out.first);
+    const auto looked = directory.files.find(left_out.first.native());
     return looked != directory.files.end() && looked->second.name == map;
   });
 }
@@ -21,22 +20,27 @@ bool is_left_out(const MapDirectory& directory, const std::string& map) {
 }  // namespace
 
 Document catalog_document(const std::map<std::string, std::shared_ptr<const MapBuild>>& maps) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const auto& [name, map] : maps) list.push_back({{"name", name}, {"build", map->build}});
-  const nlohmann::ordered_json json = {{"maps", std::move(list)}};
-  return document_of(json.dump());
+  std::string text = R"({"maps":[)";
+  const char* separator = "";
+  for (const auto& [name, map] : maps) {  // neither needs an escape
+    text.append(separator).append(R"({"name":")").append(name);
+    text.append(R"(","build":")").append(map->build).append("\"}");
+    separator = ",";
+  }
+  return document_of(text.append("]}"));
 }
 
 Result<std::shared_ptr<const Catalog>> Catalog::open(const fs::path& directory,
                                                      const CatalogSettings& settings,
                                                      const Warn& warn) {
+  sqlite::expect_many_connections();
   const std::shared_ptr<Catalog> catalog(new Catalog);
   catalog->path_ = directory;
   catalog->settings_ = settings;
   catalog->open_maps_ =
       std::make_shared<OpenMaps>(settings.open_maps, std::make_shared<MapFaults>());
   Result<MapDirectory> read =
-      read_directory(directory, {}, *catalog->open_maps_, settings.kept, warn);
+      read_directory(directory, {}, {{}, true}, *catalog->open_maps_, settings.kept, warn);
   if (!read) return read.error();
   const auto& left_out = read->left_out;
   if (read->maps.empty() && left_out.size() == 1) return left_out.front().second;
@@ -50,9 +54,10 @@ Result<std::shared_ptr<const Catalog>> Catalog::open(const fs::path& directory,
   return std::shared_ptr<const Catalog>(catalog);
 }
 
-Result<std::shared_ptr<const Catalog>> Catalog::reloaded(Clock::time_point now,
-                                                         const Warn& warn) const {
-  Result<MapDirectory> read = read_directory(path_, directory_, *open_maps_, settings_.kept, warn);
+Result<std::shared_ptr<const Catalog>> Catalog::reloaded(Clock::time_point now, const Warn& warn,
+                                                         const DirectoryChanges& changes) const {
+  Result<MapDirectory> read =
+      read_directory(path_, directory_, changes, *open_maps_, settings_.kept, warn);
   if (!read) return read.error();
   const auto is_known = [&](const std::pair<fs::path, Error>& left_out) {
     return std::ranges::any_of(directory_.left_out, [&](const auto& known) {
@@ -74,33 +79,37 @@ void Catalog::take(MapDirectory directory, const Catalog* before, Clock::time_po
   directory_ = std::move(directory);
   maps_ = directory_.maps;
   if (before != nullptr) retire(*before, now);
-  open_maps_->faults()->keep_only([this](const std::string& map, const std::string& build) {
+  const auto is_served = [this](const std::string& map, const std::string& build) {
     return this->build(map, build) != nullptr;
-  });
+  };
+  open_maps_->faults()->keep_only(is_served);
+  open_maps_->signatures().keep_only(is_served);
   index();
   document_ = catalog_document(maps_);
 }
 
 void Catalog::retire(const Catalog& before, Clock::time_point now) {
   const auto faults = open_maps_->faults()->all();
-  for (const auto& [name, build] : before.maps_) {
-    const auto current = maps_.find(name);
-    if (current == maps_.end() && is_left_out(directory_, name)) {
-      maps_[name] = build;
+  auto current = maps_.begin();
+  for (const auto& [name, build] : before.maps_) {  // both in the order of the names
+    while (current != maps_.end() && current->first < name) ++current;
+    const bool is_there = current != maps_.end() && current->first == name;
+    if (is_there && current->second == build) continue;
+    if (!is_there && is_left_out(directory_, name)) {
+      maps_.emplace_hint(current, name, build);
       continue;
     }
-    const bool is_gone = current == maps_.end() || current->second->build != build->build;
+    const bool is_gone = !is_there || current->second->build != build->build;
     // What was written over, or is damaged, cannot be read any more.
     const bool is_damaged = faults.contains({name, build->build});
-    const bool is_overwritten =
-        current != maps_.end() && current->second->identity.is_same_file(build->identity);
+    const bool is_overwritten = is_there && current->second->identity.is_same_file(build->identity);
     if (is_gone && !is_overwritten && !is_damaged)
       old_[name].push_back({build, now + settings_.keep});
   }
   for (const auto& [name, builds] : before.old_) {
-    const auto current = maps_.find(name);
+    const auto known = maps_.find(name);
     for (const OldBuild& old : builds) {
-      const bool is_current = current != maps_.end() && current->second->build == old.build->build;
+      const bool is_current = known != maps_.end() && known->second->build == old.build->build;
       if (!is_current && old.until > now) old_[name].push_back(old);
     }
   }
@@ -155,6 +164,13 @@ std::shared_ptr<const MapBuild> Catalog::older_build(const std::string& map,
   if (!identity) return nullptr;
   return std::make_shared<const MapBuild>(
       MapBuild{map, build, std::nullopt, nullptr, file, *identity, nullptr});
+}
+
+Result<std::string> Catalog::signature(const ServedMap& map) const {
+  const auto current = maps_.find(map.name());
+  return open_maps_->signatures().of(
+      {map.name(), map.build(), map.file(), kept_build_file(path_, map.name(), map.build()),
+       current != maps_.end() && current->second->build == map.build()});
 }
 
 Result<std::shared_ptr<const MapLines>> Catalog::lines(const MapBuild& build) const {

@@ -46,8 +46,10 @@ class Catalog {
 
   // The catalog of what the directory holds now. Builds that were replaced stay until their time is
   // over, and so does the build of a map whose new file cannot be served, for as long as that is
-  // so. `warn` is told of what was not left out before. Errors: those of read_directory.
-  Result<std::shared_ptr<const Catalog>> reloaded(Clock::time_point now, const Warn& warn) const;
+  // so. Where `changes` tells of all that happened since, no other files are looked at. `warn` is
+  // told of what was not left out before. Errors: those of read_directory.
+  Result<std::shared_ptr<const Catalog>> reloaded(Clock::time_point now, const Warn& warn,
+                                                  const DirectoryChanges& changes) const;
 
   // The current builds, by the maps' names.
   const std::map<std::string, std::shared_ptr<const MapBuild>>& maps() const { return maps_; }
@@ -76,6 +78,8 @@ class Catalog {
   }
   // The same for its lines alone, most of which are in memory.
   Result<std::shared_ptr<const MapLines>> lines(const MapBuild& build) const;
+  // The text of the signature of a build that is served. Errors: those of Signatures::of.
+  Result<std::string> signature(const ServedMap& map) const;
   // Maps whose files were damaged after they were opened.
   std::map<std::pair<std::string, std::string>, Error> faults() const {
     return open_maps_->faults()->all();

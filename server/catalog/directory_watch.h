@@ -2,11 +2,20 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "schema/base/result.h"
 
 namespace milepost::server {
+
+// What happened to a directory.
+struct DirectoryChanges {
+  std::set<std::filesystem::path> files;  // that came, went, were written or took another's place
+  bool may_be_more = false;               // than these files: look at all
+
+  bool any() const { return may_be_more || !files.empty(); }
+};
 
 // What happens on other hosts to a directory that is shared with them, and behind symbolic links,
 // is not told. Not safe to use from several threads at once.
@@ -16,17 +25,20 @@ class DirectoryWatch {
   static Result<DirectoryWatch> open(const std::filesystem::path& directory);
 
   DirectoryWatch(DirectoryWatch&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)) {}
+      : directory_(std::move(other.directory_)),
+        descriptor_(std::exchange(other.descriptor_, -1)) {}
   DirectoryWatch& operator=(DirectoryWatch&&) = delete;
   DirectoryWatch(const DirectoryWatch&) = delete;
   ~DirectoryWatch();
 
   int descriptor() const { return descriptor_; }  // readable when something happened
-  // Whether something happened since the last call.
-  bool take();
+  // Adds what happened since the last call.
+  void take(DirectoryChanges& changes);
 
  private:
-  explicit DirectoryWatch(int descriptor) : descriptor_(descriptor) {}
+  DirectoryWatch(std::filesystem::path directory, int descriptor)
+      : directory_(std::move(directory)), descriptor_(descriptor) {}
+  std::filesystem::path directory_;
   int descriptor_;
 };
 

@@ -5,10 +5,12 @@
 namespace milepost::server {
 
 Document document_of(std::string text) {
-  Document document;
-  document.digest = digest_of(as_bytes(text));
-  document.text = std::make_shared<const std::string>(std::move(text));
-  return document;
+  std::string digest = digest_of(as_bytes(text));
+  return document_of(std::move(text), std::move(digest));
+}
+
+Document document_of(std::string text, std::string digest) {
+  return {std::make_shared<const std::string>(std::move(text)), std::move(digest)};
 }
 
 }  // namespace milepost::server

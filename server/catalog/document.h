@@ -12,5 +12,7 @@ struct Document {
 };
 
 Document document_of(std::string text);
+// REQUIRES: `digest` is that of the text.
+Document document_of(std::string text, std::string digest);
 
 }  // namespace milepost::server

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "server/catalog/directory_watch.h"
 #include "server/catalog/map_build.h"
 #include "server/catalog/open_maps.h"
 
@@ -29,7 +30,7 @@ struct LookedAt {
 };
 
 struct MapDirectory {
-  std::map<std::filesystem::path, LookedAt> files;                // that are not hidden
+  std::map<std::string, LookedAt> files;                          // that are not hidden, by path
   std::map<std::string, std::shared_ptr<const MapBuild>> maps;    // by name
   std::vector<std::pair<std::filesystem::path, Error>> left_out;  // maps, or named so
 };
@@ -41,12 +42,14 @@ struct KeptLimits {
       64U << 20U;  // of lines, about; others are read when they are asked for
 };
 
-// Reads the directory. Files that did not change since `before` are not read again; new ones are
-// read by several threads. Of files with the same map name the one that ends in ".map" is served,
+// Reads the directory. Files that did not change since `before` are not read again, and where
+// `changes` tells of all that happened since, no others are looked at; new ones are read by several
+// threads. Of files with the same map name the one that ends in ".map" is served,
 // or none. `warn` is told of files that are no maps, those of `before` aside. Errors: not_found or
 // io (directory).
 Result<MapDirectory> read_directory(const std::filesystem::path& directory,
-                                    const MapDirectory& before, OpenMaps& open_maps,
-                                    const KeptLimits& limits, const Warn& warn);
+                                    const MapDirectory& before, const DirectoryChanges& changes,
+                                    OpenMaps& open_maps, const KeptLimits& limits,
+                                    const Warn& warn);
 
 }  // namespace milepost::server

@@ -6,11 +6,13 @@
 
 namespace milepost::server {
 
-std::string current_map_document(const std::string& name, const MapReader& reader) {
-  nlohmann::json document = nlohmann::json::parse(reader.map_document());
+std::string current_map_document(const std::string& name, const std::string& build,
+                                 const std::string& map_document,
+                                 const std::vector<std::string>& segments) {
+  nlohmann::json document = nlohmann::json::parse(map_document);
   document["name"] = name;
-  document["build"] = reader.build();
-  document["segments"] = reader.segment_ids();
+  document["build"] = build;
+  document["segments"] = segments;
   return canonical_json(document);
 }
 

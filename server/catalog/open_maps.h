@@ -14,6 +14,7 @@
 #include "server/catalog/map_build.h"
 #include "server/catalog/map_faults.h"
 #include "server/catalog/served_map.h"
+#include "server/catalog/signatures.h"
 
 namespace milepost::server {
 
@@ -39,6 +40,7 @@ class OpenMaps {
 
   const OpenMapLimits& limits() const { return limits_; }
   const std::shared_ptr<MapFaults>& faults() const { return faults_; }
+  Signatures& signatures() { return signatures_; }
 
  private:
   using Key = std::pair<std::string, std::string>;  // map, build
@@ -55,6 +57,7 @@ class OpenMaps {
 
   const OpenMapLimits limits_;
   const std::shared_ptr<MapFaults> faults_;
+  Signatures signatures_;  // of all that are served; synchronizes itself
   std::mutex mutex_;
   std::map<Key, std::shared_ptr<Slot>> slots_;
   std::list<Key> uses_;  // the latest first

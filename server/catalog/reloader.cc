@@ -16,18 +16,24 @@ using std::chrono::milliseconds;
 using Clock = Catalog::Clock;
 
 void log_changes(const Catalog& before, const Catalog& after) {
-  for (const auto& [name, build] : after.maps()) {
-    const auto known = before.maps().find(name);
-    if (known == before.maps().end()) {
+  auto known = before.maps().begin();
+  const auto gone_before = [&](const std::string* name) {
+    for (; known != before.maps().end() && (name == nullptr || known->first < *name); ++known)
+      spdlog::info("map {}: is no longer served", known->first);
+  };
+  for (const auto& [name, build] : after.maps()) {  // both in the order of the names
+    gone_before(&name);
+    if (known == before.maps().end() || known->first != name) {
       spdlog::info("map {}: is served now, build {}", name, build->build);
-    } else if (known->second->build != build->build) {
+      continue;
+    }
+    if (known->second->build != build->build) {
       spdlog::info("map {}: build {} takes the place of {}", name, build->build,
                    known->second->build);
     }
+    ++known;
   }
-  for (const auto& [name, build] : before.maps()) {
-    if (!after.maps().contains(name)) spdlog::info("map {}: is no longer served", name);
-  }
+  gone_before(nullptr);
 }
 
 }  // namespace
@@ -62,17 +68,18 @@ void Reloader::look() {
 
 void Reloader::run() {
   // What happened between the first look at the directory and the watch.
+  changes_.may_be_more = true;
   reload();
   while (!stopping_) {
     if (wait(wait_at_most())) settle();
+    if (Clock::now() >= look_at_all_) changes_.may_be_more = true;
     if (!stopping_) reload();
   }
 }
 
 milliseconds Reloader::wait_at_most() const {
-  const auto next = catalog_->now()->next_change();
-  if (!next) return settings_.interval;
-  const auto until = std::chrono::ceil<milliseconds>(*next - Clock::now());
+  const auto next = std::min(catalog_->now()->next_change().value_or(look_at_all_), look_at_all_);
+  const auto until = std::chrono::ceil<milliseconds>(next - Clock::now());
   return std::clamp(until, milliseconds(1), settings_.interval);
 }
 
@@ -83,8 +90,12 @@ bool Reloader::wait(milliseconds at_most) {
   if (::poll(waited.data(), waited.size(), static_cast<int>(at_most.count())) <= 0) return false;
   std::uint64_t count = 0;
   const bool is_asked = ::read(wake_, &count, sizeof(count)) > 0;
-  const bool has_changed = watch_ && watch_->take();
-  return is_asked || has_changed;
+  if (is_asked) changes_.may_be_more = true;
+  DirectoryChanges changes;
+  if (watch_) watch_->take(changes);
+  changes_.files.merge(changes.files);
+  changes_.may_be_more |= changes.may_be_more;
+  return is_asked || changes.any();
 }
 
 // Waits until nothing happens any more: files come in several steps.
@@ -97,12 +108,15 @@ void Reloader::settle() {
 void Reloader::reload() {
   also_();
   const std::shared_ptr<const Catalog> before = catalog_->now();
-  const auto after =
-      before->reloaded(Clock::now(), [](const std::string& line) { spdlog::warn("{}", line); });
+  const DirectoryChanges changes = std::exchange(changes_, {});
+  if (changes.may_be_more) look_at_all_ = Clock::now() + settings_.interval;
+  const auto after = before->reloaded(
+      Clock::now(), [](const std::string& line) { spdlog::warn("{}", line); }, changes);
   if (!after) {
     ++failures_;
     if (!has_failed_) spdlog::error("{}; what was read before is served", after.error().line());
   }
+  changes_.may_be_more |= !after;  // nothing of it was taken up
   has_failed_ = !after;
   if (!after || before->is_same(**after)) return;
   ++reloads_;

@@ -22,9 +22,9 @@ struct ReloadSettings {
   std::chrono::milliseconds interval{30'000};
 };
 
-// Looks at the directory when something happens to it, when it is asked to, when an old build's
-// time is over, and from time to time, on a thread of its own. What changed is told to the log. A
-// directory that cannot be read changes nothing.
+// Looks at the files to which something happens, and at the whole directory when it is asked to and
+// from time to time, on a thread of its own; ends the time of old builds. What changed is told to
+// the log. A directory that cannot be read changes nothing.
 class Reloader {
  public:
   // `also` is called at each look, on the same thread: for files that are followed likewise.
@@ -53,6 +53,8 @@ class Reloader {
   const ReloadSettings settings_;
   const std::function<void()> also_;
   std::optional<DirectoryWatch> watch_;
+  DirectoryChanges changes_;  // since the last look
+  Catalog::Clock::time_point look_at_all_;
   bool has_failed_ = false;
   int wake_;  // an eventfd
   std::atomic<bool> stopping_{false};

@@ -38,8 +38,8 @@ Result<std::shared_ptr<const ServedMap>> ServedMap::open(const std::string& name
 Status ServedMap::load(const MapReader& reader) {
   build_ = reader.build();
   layers_ = reader.layers();
-  manifest_ = document_of(reader.manifest_document());
-  summary_ = document_of(reader.map_document());
+  manifest_ = document_of(reader.manifest_document(), build_);
+  summary_ = document_of(reader.map_document(), reader.manifest().map.digest);
   std::vector<SegmentLine> lines;
   for (const std::string& id : reader.segment_ids()) {
     Result<SegmentLine> line = load_segment(reader, id);
@@ -49,7 +49,6 @@ Status ServedMap::load(const MapReader& reader) {
   lines_ = std::make_shared<const MapLines>(std::move(lines));
   const Status cells_loaded = load_cells(reader);
   if (!cells_loaded) return cells_loaded;
-  document_ = document_of(current_map_document(name_, reader));
   count_memory();
   return ok_status();
 }
@@ -70,7 +69,9 @@ Result<SegmentLine> ServedMap::load_segment(const MapReader& reader, const std::
   }
   Result<std::string> document = reader.segment_document(id);
   if (!document) return document.error();
-  segments_.emplace(id, ServedSegment{std::move(tiles), document_of(std::move(*document))});
+  segments_.emplace(
+      id, ServedSegment{std::move(tiles), document_of(std::move(*document),
+                                                      reader.manifest().segments.at(id).digest)});
   return SegmentLine{id, stored->length_m, BoxedLine(std::move(*line))};
 }
 
@@ -82,13 +83,23 @@ Status ServedMap::load_cells(const MapReader& reader) {
   }
   Result<std::string> document = reader.areas_document();
   if (!document) return document.error();
-  areas_ = document_of(std::move(*document));
+  areas_ = document_of(std::move(*document), reader.manifest().areas.digest);
   return ok_status();
 }
 
+const Document& ServedMap::document() const {
+  std::call_once(document_asked_for_, [this] {
+    std::vector<std::string> ids;
+    for (const auto& [id, segment] : segments_) ids.push_back(id);
+    document_ = document_of(current_map_document(name_, build_, *summary_.text, ids));
+  });
+  return document_;
+}
+
+// The current document, which may be asked for later, has little more than the map's.
 void ServedMap::count_memory() {
-  memory_bytes_ = document_.text->size() + manifest_.text->size() + summary_.text->size() +
-                  2 * areas_.text->size() + lines_->memory_bytes();
+  memory_bytes_ = manifest_.text->size() + 2 * summary_.text->size() + 2 * areas_.text->size() +
+                  lines_->memory_bytes();
   // The document, and the index that is written in it.
   for (const auto& [id, segment] : segments_) memory_bytes_ += 3 * segment.document.text->size();
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,6 @@
 #include "server/catalog/map_faults.h"
 #include "server/catalog/map_lines.h"
 #include "server/catalog/reader_pool.h"
-#include "server/catalog/signature_file.h"
 
 namespace milepost::server {
 
@@ -21,7 +21,7 @@ struct ServedSegment {
   Document document;
 };
 
-// Immutable, so safe to share between threads.
+// Safe to share between threads: nothing that is seen of it changes.
 class ServedMap {
  public:
   // Has up to `readers` readers, for threads that read tiles at once. Tells `faults` of tiles that
@@ -33,19 +33,17 @@ class ServedMap {
 
   const std::string& name() const { return name_; }
   const std::string& build() const { return build_; }
+  const std::filesystem::path& file() const { return file_->path(); }  // where it was opened
   const std::map<std::string, ServedSegment>& segments() const { return segments_; }
   // Layer -> index, ascending; every layer, also those without cells.
   const std::map<std::string, std::vector<CellEntry>>& cells() const { return cells_; }
-  const Document& document() const { return document_; }  // of the current state
+  const Document& document() const;  // of the current state
   const Document& manifest() const { return manifest_; }
   const Document& summary() const { return summary_; }  // the build's map document
   const Document& areas() const { return areas_; }      // the index of the cells
   const std::shared_ptr<const MapLines>& lines() const { return lines_; }
   // Of the documents and the indices, about.
   std::uint64_t memory_bytes() const { return memory_bytes_; }
-
-  // The text of the build's signature. Errors: those of read_signature_of.
-  Result<std::string> signature() const { return read_signature_of(file_->path(), name_, build_); }
 
   // An encoded tile, checked against its entry in the index.
   // Errors: corrupt (it is not the one of the index), io.
@@ -74,7 +72,8 @@ class ServedMap {
   std::map<std::string, std::vector<CellEntry>> cells_;
   std::shared_ptr<const MapLines> lines_;
   std::uint64_t memory_bytes_ = 0;
-  Document document_;
+  mutable std::once_flag document_asked_for_;
+  mutable Document document_;  // guarded by document_asked_for_
   Document manifest_;
   Document summary_;
   Document areas_;

@@ -1,8 +1,6 @@
 #include "server/catalog/signature_file.h"
 
 #include "schema/base/file.h"
-#include "schema/document/signature.h"
-
 namespace milepost::server {
 namespace fs = std::filesystem;
 namespace {
@@ -20,13 +18,13 @@ fs::path signature_file_of(const fs::path& map_file) {
 
 bool is_named_as_signature(const fs::path& file) { return file.extension() == kSignatureExtension; }
 
-Result<std::string> read_signature_of(const fs::path& map_file, const std::string& name,
-                                      const std::string& build) {
+Result<StoredSignature> read_signature(const fs::path& map_file) {
   const fs::path file = signature_file_of(map_file);
   std::error_code unreachable;
   const std::uintmax_t bytes = fs::file_size(file, unreachable);
   if (unreachable == std::errc::no_such_file_or_directory) {
-    return unsigned_build(build, "is not signed");
+    return Error{ErrorCode::not_found, file.string(), "there is no such file",
+                 "sign the map with milepost-server sign"};
   }
   if (unreachable) {  // a FIFO too, whose reading would block
     return Error{ErrorCode::io, file.string(), "cannot be read (" + unreachable.message() + ")",
@@ -44,12 +42,22 @@ Result<std::string> read_signature_of(const fs::path& map_file, const std::strin
     error.where = file.string();
     return error;
   }
+  return StoredSignature{signature->about, std::move(*text)};
+}
+
+Result<std::string> read_signature_of(const fs::path& map_file, const std::string& name,
+                                      const std::string& build) {
+  Result<StoredSignature> signature = read_signature(map_file);
+  if (!signature && signature.error().code == ErrorCode::not_found) {
+    return unsigned_build(build, "is not signed");
+  }
+  if (!signature) return signature.error();
   const SignedBuild& about = signature->about;
   if (about.map != name || about.build != build) {
     return unsigned_build(build, "is not signed: the signature beside the map is that of build " +
                                      about.build + " of map " + about.map);
   }
-  return text;
+  return std::move(signature->text);
 }
 
 }  // namespace milepost::server

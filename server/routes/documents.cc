@@ -32,7 +32,7 @@ Result<Response> answer_signature(const Call& call) {
   const Result<std::shared_ptr<const ServedMap>> map =
       find_build(call.catalog, call.path[0], call.path[1]);
   if (!map) return map.error();
-  Result<std::string> signature = (*map)->signature();
+  Result<std::string> signature = call.catalog.signature(**map);
   if (!signature) return signature.error();
   return current_text(document_of(std::move(*signature)), "text/plain; charset=utf-8");
 }

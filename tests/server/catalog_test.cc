@@ -187,6 +187,16 @@ TEST_F(LeftOutTest, MapWithoutATable) {
   expect_left_out("town.map", "no such table: successors");
 }
 
+// Found at the start, though the first tile is read later.
+TEST_F(LeftOutTest, MapWithoutTheTableOfItsTiles) {
+  write_town(town_);
+  change_town("ALTER TABLE frames RENAME TO pictures");
+  expect_left_out("town.map", "no such table column: frames");
+  write_town(town_);
+  change_town("ALTER TABLE frames RENAME COLUMN frame TO picture");
+  expect_left_out("town.map", "no such table column: frames.frame");
+}
+
 TEST_F(LeftOutTest, ParametersThatAreNoJson) {
   write_town(town_);
   change_town("UPDATE layers SET parameters = '{' WHERE name = 'walls'");

@@ -34,11 +34,12 @@ class ReloadTest : public ::testing::Test {
     ASSERT_TRUE(opened.ok()) << opened.error().line();
     catalog_ = *opened;
   }
-  // As much later.
-  void reload(std::chrono::seconds later = 0s) {
+  // As much later, by a look at all files.
+  void reload(std::chrono::seconds later = 0s) { reload(later, {{}, true}); }
+  void reload(std::chrono::seconds later, const DirectoryChanges& changes) {
     now_ += later;
     warnings_.clear();
-    const auto reloaded = catalog_->reloaded(now_, warn());
+    const auto reloaded = catalog_->reloaded(now_, warn(), changes);
     ASSERT_TRUE(reloaded.ok()) << reloaded.error().line();
     catalog_ = *reloaded;
   }
@@ -159,6 +160,40 @@ TEST_F(ReloadTest, WhatDidNotChangeIsNotReadAgain) {
   const auto again = catalog_;
   reload();
   EXPECT_TRUE(catalog_->is_same(*again));
+}
+
+TEST_F(ReloadTest, OnlyWhatChangedIsLookedAt) {
+  const TownMap town = write(1);
+  const TownMap lost = write(3, "lost.map");
+  open();
+  const TownMap new_town = write(2);
+  const TownMap village = write(4, "village.map");
+  fs::remove(folder_.path() / "lost.map");
+  write(5, ".hidden.map");
+  write_over("list.map", "eggs");
+  const auto files = [this](const std::vector<std::string>& names) {
+    DirectoryChanges changes;
+    for (const std::string& name : names) changes.files.insert(folder_.path() / name);
+    return changes;
+  };
+  const auto builds = [this] {
+    std::map<std::string, std::string> found;
+    for (const auto& [name, build] : catalog_->maps()) found[name] = build->build;
+    return found;
+  };
+  using Builds = std::map<std::string, std::string>;
+  reload(0s, {});
+  EXPECT_EQ(builds(), (Builds{{"town", town.build}, {"lost", lost.build}}));
+  reload(0s, files({"village.map", ".hidden.map", "town.map.sig"}));
+  EXPECT_EQ(builds(),
+            (Builds{{"town", town.build}, {"lost", lost.build}, {"village", village.build}}));
+  reload(0s, files({"lost.map", "town.map", "list.map", "never.map"}));
+  EXPECT_EQ(builds(), (Builds{{"town", new_town.build}, {"village", village.build}}));
+  EXPECT_THAT(readiness(), HasSubstr("list.map"));
+  EXPECT_EQ(tile_of(town.build), text(town.frames[0]));
+  const auto before = catalog_;
+  reload();
+  EXPECT_TRUE(before->is_same(*catalog_));
 }
 
 TEST_F(ReloadTest, ReadinessIs503WhereASettingAsksForAllMaps) {
@@ -283,6 +318,28 @@ TEST_F(ReloaderTest, LooksWhenItIsAskedTo) {
   settings.interval = 1h;
   start(settings);
   fs::rename(elsewhere.path() / "second", elsewhere.path() / "first");
+  reloader_->look();
+  EXPECT_TRUE(comes_true([&] { return is_current(second.build); }));
+}
+
+// A link's target is not watched, so that it tells which files were looked at.
+TEST_F(ReloaderTest, AChangeCostsNoLookAtOtherFiles) {
+  const TemporaryFolder elsewhere;
+  const TownMap first = write_town(elsewhere.path() / "first", 100, 1);
+  const TownMap second = write_town(elsewhere.path() / "second", 100, 2);
+  fs::create_symlink(elsewhere.path() / "first", folder_.path() / "town.map");
+  ReloadSettings settings;
+  settings.quiet = 1ms;
+  settings.interval = 1h;
+  start(settings);
+  write(3, "before.map");  // after which its first look at all is over
+  ASSERT_TRUE(comes_true([&] { return current_->now()->maps().contains("before"); }));
+  fs::rename(elsewhere.path() / "second", elsewhere.path() / "first");
+  write(4, "village.map");
+  ASSERT_TRUE(comes_true([&] { return current_->now()->maps().contains("village"); }));
+  fs::remove(folder_.path() / "village.map");
+  ASSERT_TRUE(comes_true([&] { return !current_->now()->maps().contains("village"); }));
+  EXPECT_TRUE(is_current(first.build));
   reloader_->look();
   EXPECT_TRUE(comes_true([&] { return is_current(second.build); }));
 }

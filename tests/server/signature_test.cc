@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "schema/base/digest.h"
+#include "server/catalog/kept_builds.h"
+#include "server/catalog/signature_file.h"
 #include "server/message/conditional.h"
 #include "server/routes/handle.h"
 #include "tests/server/responses.h"
@@ -84,6 +86,68 @@ TEST_F(ServedSignatureTest, AFifoOrAFolderIsAFailureThatBlocksNobody) {
   std::filesystem::remove(file);
   std::filesystem::create_directory(file);
   EXPECT_EQ(problem_status(get()), 500U);
+}
+
+class ReplacedBuildTest : public ServedSignatureTest {
+ protected:
+  std::string signature_of_first() const {
+    const Response response =
+        handle({"GET", "/v1/maps/town/builds/" + town_.build + "/manifest.sig", ""}, *catalog_);
+    return response.status == 200 ? text_of(response) : std::to_string(response.status);
+  }
+  void reload(const DirectoryChanges& changes) {
+    catalog_ = *catalog_->reloaded(
+        Catalog::Clock::now(), [](const std::string& /*line*/) {}, changes);
+  }
+  // Another build takes the map's place, signed or not.
+  void replace(bool is_signed) {
+    const TownMap next = write_town(folder_.path() / "next", 100, 2);
+    if (is_signed) put(signature_of("town", next.build));
+    std::filesystem::rename(folder_.path() / "next", folder_.path() / "town.map");
+  }
+
+  std::shared_ptr<const Catalog> catalog_;
+};
+
+TEST_F(ReplacedBuildTest, KeepsItsSignatureThatWasThereAtTheStart) {
+  put(signature_of("town", town_.build));
+  catalog_ = open_catalog(folder_.path());
+  replace(true);
+  EXPECT_EQ(signature_of_first(), signature_of("town", town_.build));  // not yet taken up
+  reload({{}, true});
+  EXPECT_EQ(catalog_->old_builds().count("town"), 1U);
+  EXPECT_EQ(signature_of_first(), signature_of("town", town_.build));
+  std::filesystem::remove(folder_.path() / "town.map.sig");
+  EXPECT_EQ(signature_of_first(), signature_of("town", town_.build));
+}
+
+TEST_F(ReplacedBuildTest, KeepsItsSignatureThatCameLater) {
+  catalog_ = open_catalog(folder_.path());
+  put(signature_of("town", town_.build));
+  reload({{folder_.path() / "town.map.sig"}, false});
+  replace(true);
+  reload({{}, true});
+  EXPECT_EQ(signature_of_first(), signature_of("town", town_.build));
+}
+
+TEST_F(ReplacedBuildTest, HasTheSignatureThatIsKeptWithIt) {
+  catalog_ = open_catalog(folder_.path());
+  replace(true);
+  reload({{}, true});
+  EXPECT_EQ(signature_of_first(), "404");
+  const auto kept = kept_build_file(folder_.path(), "town", town_.build);
+  std::filesystem::create_directories(kept.parent_path());
+  std::ofstream(signature_file_of(kept)) << signature_of("town", town_.build);
+  EXPECT_EQ(signature_of_first(), signature_of("town", town_.build));
+}
+
+TEST_F(ReplacedBuildTest, ACurrentBuildWhoseSignatureWasRemovedIsNotSigned) {
+  put(signature_of("town", town_.build));
+  catalog_ = open_catalog(folder_.path());
+  std::filesystem::remove(folder_.path() / "town.map.sig");
+  EXPECT_EQ(signature_of_first(), "404");
+  put(signature_of("village", town_.build));
+  EXPECT_EQ(signature_of_first(), "404");
 }
 
 TEST_F(ServedSignatureTest, IsNeitherAMapNorWarnedAbout) {

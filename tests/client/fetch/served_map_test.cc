@@ -108,8 +108,8 @@ TEST_F(ServedMapTest, OfANewBuildOnlyWhatDiffersIsFetched) {
   const auto source = open_source();
   ASSERT_EQ(source->tiles(version_, "s1", "tracklets", {0, 200})->size(), 10U);
   const MapVersion next = {"town", write_map(folder_ / "maps" / "town.mpm", 1)};
-  catalog_->replace(
-      *catalog_->now()->reloaded(server::Catalog::Clock::now(), [](const std::string&) {}));
+  catalog_->replace(*catalog_->now()->reloaded(server::Catalog::Clock::now(),
+                                               [](const std::string&) {}, {{}, true}));
   ASSERT_NE(next.build, version_.build);
   const SourceCounters before = source->counters();
   const auto tiles = source->tiles(next, "s1", "tracklets", {0, 200});
