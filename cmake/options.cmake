@@ -47,10 +47,11 @@ function(milepost_library name)
     PRIVATE ${ARG_PRIVATE} milepost_compile_options)
 endfunction()
 
-# milepost_program(NAME SOURCES ... LINK ...): an installed command.
+# milepost_program(NAME SOURCES ... LINK ...): an installed command, with its manual page.
 function(milepost_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} milepost_compile_options)
-  install(TARGETS ${name} RUNTIME)
+  install(TARGETS ${name} RUNTIME COMPONENT ${name})
+  milepost_man_page(${name})
 endfunction()
