@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "schema/base/bytes.h"
 #include "schema/base/file.h"
 #include "schema/base/ids.h"
 #include "schema/base/json.h"
