@@ -241,7 +241,7 @@ HttpAnswer failed_answer(const std::string& url, CURLcode code, const char* mess
 
 class CurlTransport : public Transport {
  public:
-  explicit CurlTransport(const TransportSettings& settings) : settings_(settings) {
+  explicit CurlTransport(TransportSettings settings) : settings_(std::move(settings)) {
     initialize_curl_once();
   }
 

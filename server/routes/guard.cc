@@ -8,11 +8,11 @@ namespace {
 // RFC 6750, section 3.
 Response unauthorized(const Grant& grant) {
   std::string detail = "a token is needed; send 'Authorization: Bearer TOKEN'";
-  std::string challenge = "Bearer realm=\"milepost\"";
+  std::string challenge = R"(Bearer realm="milepost")";
   if (grant.is_of_bad_token()) {
     detail = grant.is_of_expired_token() ? "the token has expired; ask the operator for another one"
                                          : "the token is not known; check that it is complete";
-    challenge += ", error=\"invalid_token\"";
+    challenge += R"(, error="invalid_token")";
   }
   Response response = problem(401, detail);
   response.headers.emplace_back("WWW-Authenticate", challenge);
@@ -22,7 +22,7 @@ Response unauthorized(const Grant& grant) {
 Response forbidden() {
   Response response = problem(403, "the token is not for this; ask the operator for another one");
   response.headers.emplace_back("WWW-Authenticate",
-                                "Bearer realm=\"milepost\", error=\"insufficient_scope\"");
+                                R"(Bearer realm="milepost", error="insufficient_scope")");
   return response;
 }
 
