@@ -12,18 +12,7 @@ import urllib.error
 import urllib.request
 
 import commands
-from commands import CLIENT, MAPPER, SERVER, STREET, CommandTest, Server, rows_of, run
-
-
-def certificate(folder, name, days=30):
-    """A certificate for 127.0.0.1 and its key, signed by itself."""
-    files = folder / f"{name}.pem", folder / f"{name}.key"
-    done = subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", str(days),
-                           "-keyout", files[1], "-out", files[0], "-subj", f"/CN={name}", "-addext", "subjectAltName=IP:127.0.0.1"],
-                          capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(done.stderr)
-    return files
+from commands import CLIENT, MAPPER, SERVER, STREET, CommandTest, Server, certificate, rows_of, run
 
 
 def get(url, token=None, **context):

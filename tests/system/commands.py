@@ -53,6 +53,17 @@ class Server:
         self.process.communicate(timeout=30)
 
 
+def certificate(folder, name, days=30):
+    """A certificate for 127.0.0.1 and its key, signed by itself."""
+    files = folder / f"{name}.pem", folder / f"{name}.key"
+    done = subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", str(days),
+                           "-keyout", files[1], "-out", files[0], "-subj", f"/CN={name}", "-addext", "subjectAltName=IP:127.0.0.1"],
+                          capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(done.stderr)
+    return files
+
+
 def rows_of(file):
     with open(file, newline="") as table:
         return list(csv.DictReader(table))

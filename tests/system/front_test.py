@@ -13,7 +13,7 @@ import time
 import urllib.request
 
 import commands
-from commands import CommandTest, SERVER, STREET, Server, run
+from commands import CommandTest, SERVER, STREET, Server, certificate, run
 from static_stores import NGINX, free_port, wait_for
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -29,14 +29,12 @@ class FrontTest(CommandTest):
     @contextlib.contextmanager
     def nginx(self, upstream):
         """deploy/nginx-front.conf with this folder's certificate and cache; its port."""
-        certificate, key = self.folder / "fullchain.pem", self.folder / "key.pem"
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj",
-                        "/CN=localhost", "-keyout", key, "-out", certificate], check=True, capture_output=True)
+        chain, key = certificate(self.folder, "front")
         port = free_port()
         text = (ROOT / "deploy" / "nginx-front.conf").read_text()
         for known, here in (("/var/cache/nginx/milepost", str(self.folder / "cache")),
                             ("127.0.0.1:8080", upstream), ("listen 443", f"listen 127.0.0.1:{port}"),
-                            ("/etc/ssl/milepost/fullchain.pem", str(certificate)),
+                            ("/etc/ssl/milepost/fullchain.pem", str(chain)),
                             ("/etc/ssl/milepost/key.pem", str(key))):
             self.assertIn(known, text)
             text = text.replace(known, here)
@@ -110,7 +108,8 @@ class DashboardTest(CommandTest):
         maps = self.folder / "maps"
         maps.mkdir()
         self.expect_done(self.build(STREET / "street-map", maps / "street.map"))
-        with Server(maps) as server:
+        chain, key = certificate(self.folder, "server")
+        with Server(maps, "--listen", "plain:127.0.0.1:0", "--tls-cert", chain, "--tls-key", key) as server:
             url = server.url + "/v1/maps/street"
             current = json.loads(urllib.request.urlopen(url, timeout=30).read())
             segment = f"{url}/builds/{current['build']}/segments/{current['segments'][0]}"
