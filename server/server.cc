@@ -33,8 +33,8 @@ Result<std::vector<ListeningSocket>> opened_sockets(const ServerSettings& settin
                "give one, such as 127.0.0.1:8080"};
 }
 
-double seconds_since_1970(std::chrono::system_clock::time_point time) {
-  return std::chrono::duration<double>(time.time_since_epoch()).count();
+double seconds_since_1970(std::chrono::sys_seconds time) {
+  return static_cast<double>(time.time_since_epoch().count());
 }
 
 // The limits with numbers in place of 0.

@@ -31,7 +31,8 @@ Result<std::shared_ptr<const Current<Value>>> followed(
 
 Result<std::shared_ptr<const TlsContext>> load_tls(const TlsFiles& files) {
   auto context = TlsContext::load(files);
-  if (context && (*context)->expires() <= std::chrono::system_clock::now()) {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  if (context && (*context)->expires() <= now) {
     spdlog::warn("{}: the certificate has expired, and clients refuse it; renew it",
                  files.certificate.string());
   }

@@ -6,7 +6,8 @@ namespace milepost::server {
 
 Grant Access::grant(std::string_view authorization) const {
   if (tokens_ == nullptr) return Grant::everything();
-  return tokens_->now()->grant(authorization, std::chrono::system_clock::now());
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return tokens_->now()->grant(authorization, now);
 }
 
 std::chrono::steady_clock::duration Access::wait(const Grant& grant, const Peer& peer) {

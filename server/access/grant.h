@@ -16,8 +16,8 @@ struct TokenEntry {
   std::string name;    // whose it is, for the log and for taking it back
   std::string sha256;  // of the whole token, in hexadecimal digits
   bool all_maps = false;
-  std::set<std::string, std::less<>> maps;             // if not all
-  std::chrono::system_clock::time_point expires = {};  // the epoch: never
+  std::set<std::string, std::less<>> maps;  // if not all
+  std::chrono::sys_seconds expires = {};    // the epoch: never
 };
 
 class Grant {

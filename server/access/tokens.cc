@@ -21,7 +21,7 @@
 namespace milepost::server {
 namespace {
 
-using Time = std::chrono::system_clock::time_point;
+using Time = std::chrono::sys_seconds;
 using Json = nlohmann::json;
 
 constexpr std::string_view kPrefix = "mp_";
@@ -210,7 +210,7 @@ Result<Time> parse_utc(const std::string& text) {
   std::tm utc{};
   const std::string whole = text.size() == 10 ? text + "T00:00:00Z" : text;
   const char* end = ::strptime(whole.c_str(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  const Time time = std::chrono::system_clock::from_time_t(timegm(&utc));
+  const Time time{std::chrono::seconds(timegm(&utc))};
   // Only a time in exactly this form is written as it was read.
   if (end != nullptr && *end == '\0' && time > Time() && utc_text(time) == whole) return time;
   return Error{ErrorCode::invalid_input, "time " + text, "is not a time in UTC",
@@ -218,7 +218,7 @@ Result<Time> parse_utc(const std::string& text) {
 }
 
 std::string utc_text(Time time) {
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+  const std::time_t seconds = time.time_since_epoch().count();
   std::tm utc{};
   gmtime_r(&seconds, &utc);
   std::array<char, 32> text{};

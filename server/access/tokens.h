@@ -30,7 +30,7 @@ class Tokens {
 
   // What the value of a request's Authorization, empty if absent, allows. The secret is compared in
   // constant time.
-  Grant grant(std::string_view authorization, std::chrono::system_clock::time_point now) const;
+  Grant grant(std::string_view authorization, std::chrono::sys_seconds now) const;
 
   struct NewToken {
     std::string token;  // to be given away; nobody can find it out again
@@ -59,7 +59,7 @@ bool is_token_name(std::string_view text);
 
 // A time in UTC as "2027-01-01T00:00:00Z", or a day as "2027-01-01", its start. Errors:
 // invalid_input.
-Result<std::chrono::system_clock::time_point> parse_utc(const std::string& text);
-std::string utc_text(std::chrono::system_clock::time_point time);
+Result<std::chrono::sys_seconds> parse_utc(const std::string& text);
+std::string utc_text(std::chrono::sys_seconds time);
 
 }  // namespace milepost::server

@@ -61,10 +61,10 @@ void configure(SSL_CTX* context) {
   SSL_CTX_set_alpn_select_cb(context, select_protocol, nullptr);
 }
 
-std::chrono::system_clock::time_point expiry_of(SSL_CTX* context) {
+std::chrono::sys_seconds expiry_of(SSL_CTX* context) {
   std::tm utc{};
   if (ASN1_TIME_to_tm(X509_get0_notAfter(SSL_CTX_get0_certificate(context)), &utc) != 1) return {};
-  return std::chrono::system_clock::from_time_t(timegm(&utc));
+  return std::chrono::sys_seconds(std::chrono::seconds(timegm(&utc)));
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ Result<std::shared_ptr<const TlsContext>> TlsContext::load(const TlsFiles& files
   return std::shared_ptr<const TlsContext>(new TlsContext(context, expiry_of(context.get())));
 }
 
-TlsContext::TlsContext(Native context, std::chrono::system_clock::time_point expires)
+TlsContext::TlsContext(Native context, std::chrono::sys_seconds expires)
     : context_(std::move(context)), expires_(expires) {}
 
 }  // namespace milepost::server

@@ -25,15 +25,15 @@ class TlsContext {
   static Result<std::shared_ptr<const TlsContext>> load(const TlsFiles& files);
 
   // When the certificate expires.
-  std::chrono::system_clock::time_point expires() const { return expires_; }
+  std::chrono::sys_seconds expires() const { return expires_; }
   ssl_ctx_st* native() const { return context_.get(); }
 
  private:
   using Native = std::shared_ptr<ssl_ctx_st>;
-  TlsContext(Native context, std::chrono::system_clock::time_point expires);
+  TlsContext(Native context, std::chrono::sys_seconds expires);
 
   Native context_;
-  std::chrono::system_clock::time_point expires_;
+  std::chrono::sys_seconds expires_;
 };
 
 // Connections that are open keep the one that they began with.

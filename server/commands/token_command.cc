@@ -124,10 +124,10 @@ Status remove_token(const TokenOptions& options, Tokens tokens) {
 }
 
 void list_tokens(const Tokens& tokens) {
-  const auto now = std::chrono::system_clock::now();
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   for (const auto& [id, entry] : tokens.entries()) {
     std::cout << entry->name << "  " << id << "  ";
-    if (entry->expires == std::chrono::system_clock::time_point()) {
+    if (entry->expires == std::chrono::sys_seconds()) {
       std::cout << "never expires";
     } else {
       std::cout << (entry->expires <= now ? "expired " : "expires ") << utc_text(entry->expires);

@@ -18,7 +18,7 @@ class AccessTest : public ServerTest {
  protected:
   // The value of Authorization of a new token, for all maps without any.
   std::string token(const std::string& name, std::set<std::string, std::less<>> maps,
-                    std::chrono::system_clock::time_point expires = {}) {
+                    std::chrono::sys_seconds expires = {}) {
     TokenEntry entry;
     entry.name = name;
     entry.all_maps = maps.empty();
@@ -130,7 +130,7 @@ TEST_F(AccessTest, ATokenThatIsTakenBackOrExpiresIsRefusedAtOnce) {
   tokens_->replace(std::make_shared<const Tokens>());
   connection.send_get(tile_path(0), one);
   EXPECT_EQ(connection.receive().status, 401);
-  const std::string old = token("old", {}, std::chrono::system_clock::now());
+  const std::string old = token("old", {}, *parse_utc("2026-01-01"));
   const Reply expired = get(tile_path(0), old);
   EXPECT_EQ(expired.status, 401);
   EXPECT_THAT(expired.body, HasSubstr("expired"));

@@ -8,13 +8,13 @@ namespace milepost::server {
 namespace {
 
 using std::chrono::hours;
-using std::chrono::system_clock;
+using std::chrono::sys_seconds;
 using ::testing::HasSubstr;
 
-const system_clock::time_point kNow = *parse_utc("2026-12-01T12:00:00Z");
+const sys_seconds kNow = *parse_utc("2026-12-01T12:00:00Z");
 
 Tokens::NewToken made(const std::string& name, std::set<std::string, std::less<>> maps,
-                      system_clock::time_point expires = {}) {
+                      sys_seconds expires = {}) {
   TokenEntry entry;
   entry.name = name;
   entry.all_maps = maps.empty();
@@ -80,6 +80,9 @@ TEST(TokensTest, AnExpiredTokenIsNone) {
   EXPECT_TRUE(tokens.grant(authorization, kNow - hours(1)).is_valid());
   EXPECT_FALSE(tokens.grant(authorization, kNow).is_valid());
   EXPECT_TRUE(tokens.grant(authorization, kNow).is_of_expired_token());
+  const auto lasting = made("lasting", {}, *parse_utc("9999-12-31"));
+  tokens.add(lasting.entry);
+  EXPECT_TRUE(tokens.grant("Bearer " + lasting.token, kNow).is_valid());
 }
 
 TEST(TokensTest, TheFileHoldsNoToken) {
