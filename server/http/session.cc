@@ -71,7 +71,10 @@ void Session::open_channel(const Accepted& accepted) {
 }
 
 void Session::start() {
-  if (!closed_) establish();
+  if (closed_) return;
+  in_request_ = has_bytes();  // or of its greeting, through TLS
+  if (in_request_) worker_.wait(*this, Phase::request);
+  establish();
 }
 
 void Session::reject() {
