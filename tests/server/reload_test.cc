@@ -286,9 +286,9 @@ class ReloaderTest : public ReloadTest {
     reloader_.emplace(folder_.path(), current_, settings);
   }
   bool is_current(const std::string& build) const {
-    const auto& maps = current_->now()->maps();
-    const auto town = maps.find("town");
-    return town != maps.end() && town->second->build == build;
+    const auto catalog = current_->now();
+    const auto town = catalog->maps().find("town");
+    return town != catalog->maps().end() && town->second->build == build;
   }
 
   std::shared_ptr<CurrentCatalog> current_;
