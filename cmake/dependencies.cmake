@@ -1,5 +1,7 @@
 # All of these are Debian 12 packages, listed in deploy/packages.txt.
 find_package(Threads REQUIRED)
+# Debian's own Python, for which deploy/packages.txt installs the modules; not another one in PATH.
+find_program(MILEPOST_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d flann calib3d)
 find_package(JPEG REQUIRED)  # OpenCV's decoder, called directly to check that frames are complete

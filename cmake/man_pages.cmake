@@ -1,7 +1,5 @@
 # milepost_man_page(PROGRAM): builds and installs the manual page of a program, from its --help. Not of programs with
 # sanitizers, which are for tests, and not where they cannot run.
-find_program(MILEPOST_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
-
 function(milepost_man_page program)
   if(MILEPOST_SANITIZE OR CMAKE_CROSSCOMPILING)
     return()

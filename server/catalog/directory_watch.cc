@@ -27,10 +27,12 @@ DirectoryWatch::~DirectoryWatch() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void DirectoryWatch::take(DirectoryChanges& changes) {
+bool DirectoryWatch::take(DirectoryChanges& changes) {
   alignas(inotify_event) std::array<char, 16384> events{};
   ssize_t bytes = 0;
+  bool any = false;
   while ((bytes = ::read(descriptor_, events.data(), events.size())) > 0) {
+    any = true;
     for (ssize_t at = 0; at < bytes;) {
       const auto* const event = reinterpret_cast<const inotify_event*>(events.data() + at);
       if (event->len > 0) {
@@ -41,6 +43,7 @@ void DirectoryWatch::take(DirectoryChanges& changes) {
       at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
     }
   }
+  return any;
 }
 
 }  // namespace milepost::server

@@ -13,8 +13,6 @@ namespace milepost::server {
 struct DirectoryChanges {
   std::set<std::filesystem::path> files;  // that came, went, were written or took another's place
   bool may_be_more = false;               // than these files: look at all
-
-  bool any() const { return may_be_more || !files.empty(); }
 };
 
 // What happens on other hosts to a directory that is shared with them, and behind symbolic links,
@@ -32,8 +30,8 @@ class DirectoryWatch {
   ~DirectoryWatch();
 
   int descriptor() const { return descriptor_; }  // readable when something happened
-  // Adds what happened since the last call.
-  void take(DirectoryChanges& changes);
+  // Adds what happened since the last call. Returns whether anything did.
+  bool take(DirectoryChanges& changes);
 
  private:
   DirectoryWatch(std::filesystem::path directory, int descriptor)

@@ -91,11 +91,8 @@ bool Reloader::wait(milliseconds at_most) {
   std::uint64_t count = 0;
   const bool is_asked = ::read(wake_, &count, sizeof(count)) > 0;
   if (is_asked) changes_.may_be_more = true;
-  DirectoryChanges changes;
-  if (watch_) watch_->take(changes);
-  changes_.files.merge(changes.files);
-  changes_.may_be_more |= changes.may_be_more;
-  return is_asked || changes.any();
+  const bool has_changed = watch_ && watch_->take(changes_);
+  return is_asked || has_changed;
 }
 
 // Waits until nothing happens any more: files come in several steps.

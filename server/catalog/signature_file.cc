@@ -1,6 +1,7 @@
 #include "server/catalog/signature_file.h"
 
 #include "schema/base/file.h"
+
 namespace milepost::server {
 namespace fs = std::filesystem;
 namespace {
